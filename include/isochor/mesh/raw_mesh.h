@@ -1,0 +1,34 @@
+#pragma once
+
+// A whole simplex mesh on one rank, before it is distributed.
+
+#include <isochor/mesh/mesh_request.h>
+
+#include <deal.II/grid/tria_description.h>
+
+namespace isochor
+{
+  /// Smallest dihedral angle (2D: corner angle) in degrees, largest ratio of longest edge to
+  /// smallest height, over all cells.
+  struct MeshQuality
+  {
+    double min_angle    = 0;
+    double max_aspect   = 0;
+    double total_volume = 0; ///< m^3 (2D: m^2)
+  };
+
+  template <int dim>
+  struct RawMesh
+  {
+    std::vector<dealii::Point<dim>>    vertices;
+    std::vector<dealii::CellData<dim>> cells; ///< simplices, positively oriented
+    dealii::SubCellData      boundary; ///< named boundary faces; boundary_id = index in names
+    std::vector<std::string> names;    ///< boundary names
+    MeshQuality              quality;
+  };
+
+  /// Read or generate, check (only simplices, first order, none inverted or degenerate, one
+  /// connected body, no unused vertices) and measure. Serial. Throws UserError.
+  template <int dim>
+  RawMesh<dim> make_raw_mesh(const MeshRequest &request);
+} // namespace isochor
