@@ -75,8 +75,10 @@ namespace isochor
     if (culprit == n_ranks)
       return;
 
-    const auto [failure, message] = dealii::Utilities::MPI::broadcast(
-        communicator, std::make_pair(static_cast<int>(mine.failure), mine.message), culprit);
+    const int failure
+        = dealii::Utilities::MPI::broadcast(communicator, static_cast<int>(mine.failure), culprit);
+    const std::string message
+        = dealii::Utilities::MPI::broadcast(communicator, mine.message, culprit);
     rethrow(static_cast<Failure>(failure), message);
   }
 } // namespace isochor
