@@ -1,0 +1,89 @@
+#include <isochor/element/nodal_element.h>
+
+namespace isochor
+{
+  namespace
+  {
+    template <int dim>
+    dealii::FiniteElementData<dim> layout(const unsigned int degree)
+    {
+      return dealii::FiniteElementData<dim>(LagrangeSimplex<dim>(degree).nodes_per_object(),
+                                            dealii::ReferenceCells::get_simplex<dim>(),
+                                            1,
+                                            degree,
+                                            degree == 0 ? dealii::FiniteElementData<dim>::L2
+                                                        : dealii::FiniteElementData<dim>::H1);
+    }
+  } // namespace
+
+  template <int dim>
+  NodalElement<dim>::NodalElement(const unsigned int degree)
+    : dealii::FiniteElement<dim>(
+        layout<dim>(degree),
+        std::vector<bool>(1, false),
+        std::vector<dealii::ComponentMask>(1, dealii::ComponentMask(1, true)))
+    , degree_(degree)
+  {
+    const LagrangeSimplex<dim> shape(degree);
+    for (unsigned int i = 0; i < shape.n_nodes(); ++i)
+      this->unit_support_points.push_back(shape.node(i));
+  }
+
+  template <int dim>
+  std::unique_ptr<dealii::FiniteElement<dim>> NodalElement<dim>::clone() const
+  {
+    return std::make_unique<NodalElement<dim>>(degree_);
+  }
+
+  template <int dim>
+  std::string NodalElement<dim>::get_name() const
+  {
+    return "NodalElement<" + std::to_string(dim) + ">(" + std::to_string(degree_) + ")";
+  }
+
+  template <int dim>
+  dealii::UpdateFlags
+  NodalElement<dim>::requires_update_flags(const dealii::UpdateFlags flags) const
+  {
+    return flags;
+  }
+
+  template <int dim>
+  auto NodalElement<dim>::get_data(const dealii::UpdateFlags,
+                                   const dealii::Mapping<dim> &,
+                                   const dealii::Quadrature<dim> &,
+                                   ShapeData &) const -> std::unique_ptr<InternalData>
+  {
+    throw std::logic_error("NodalElement has no shape functions; use reference tables");
+  }
+
+  template <int dim>
+  void NodalElement<dim>::fill_fe_values(const Cell &,
+                                         const dealii::CellSimilarity::Similarity,
+                                         const dealii::Quadrature<dim> &,
+                                         const dealii::Mapping<dim> &,
+                                         const MappingData &,
+                                         const MappedData &,
+                                         const InternalData &,
+                                         ShapeData &) const
+  {
+    throw std::logic_error("NodalElement has no shape functions; use reference tables");
+  }
+
+  template <int dim>
+  void NodalElement<dim>::fill_fe_subface_values(const Cell &,
+                                                 const unsigned int,
+                                                 const unsigned int,
+                                                 const dealii::Quadrature<dim - 1> &,
+                                                 const dealii::Mapping<dim> &,
+                                                 const MappingData &,
+                                                 const MappedData &,
+                                                 const InternalData &,
+                                                 ShapeData &) const
+  {
+    throw std::logic_error("NodalElement has no shape functions; use reference tables");
+  }
+
+  template class NodalElement<2>;
+  template class NodalElement<3>;
+} // namespace isochor
