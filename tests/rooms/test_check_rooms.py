@@ -43,6 +43,11 @@ class CheckRooms(unittest.TestCase):
         self.write("source/attic/c.cc", "")
         self.assertEqual(len(self.violations()), 3)
 
+    def test_a_header_beside_the_source_is_allowed(self):
+        self.write("source/form/parts.h", "")
+        self.write("source/form/a.cc", '#include "parts.h"\n')
+        self.assertEqual(self.violations(), [])
+
     def test_main_may_include_anything(self):
         self.write("source/main.cc", "#include <isochor/run/run.h>\n")
         self.assertEqual(self.violations(), [])
