@@ -1,0 +1,45 @@
+#pragma once
+
+// The hyperelastic term, displacement and mixed form in one:
+//   displacement:  int psi_d(F) + kappa/2 Phi(J)^2                 (equation 4)
+//   mixed:         int psi_d(F) + p Phi(J) - p^2 / (2 kappa)       (equations 9, 17 to 19, 24)
+// with the blocks of equation (24): K_d + K_g, G, -C.
+
+#include <isochor/form/term.h>
+#include <isochor/material/distortional_energy.h>
+#include <isochor/space/discretisation.h>
+
+namespace isochor
+{
+  /// What a cell kernel reads; the kernels are compiled for each number of nodes.
+  template <int dim>
+  struct ElasticityData
+  {
+    const Discretisation<dim>                &discretisation;
+    std::unique_ptr<const DistortionalEnergy> energy;
+    VolumetricStrain                          volumetric_strain;
+    Moduli                                    moduli;
+  };
+
+  template <int dim>
+  class Elasticity : public Term
+  {
+  public:
+    /// @p discretisation must outlive this. Throws std::logic_error for a displacement element
+    /// with infinite kappa; that pair is refused before.
+    Elasticity(const Discretisation<dim> &discretisation,
+               Energy                     energy,
+               VolumetricStrain           volumetric_strain,
+               const Moduli              &moduli);
+    ~Elasticity() override;
+
+    Evaluation add(const Vector &state, double load, const Target &target) const override;
+
+    /// A loop over cells, compiled for one number of displacement and pressure nodes.
+    class Kernel;
+
+  private:
+    ElasticityData<dim>           data;
+    std::unique_ptr<const Kernel> kernel;
+  };
+} // namespace isochor

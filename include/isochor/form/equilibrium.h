@@ -1,0 +1,73 @@
+#pragma once
+
+// The discrete equilibrium of a scene: all terms of the Lagrangian together, and norms of its
+// residual that mean the same in millimetres and in metres.
+
+#include <isochor/form/term.h>
+#include <isochor/scene/scene.h>
+#include <isochor/space/matrix_pattern.h>
+#include <isochor/space/prescribed_displacements.h>
+
+namespace isochor
+{
+  /// Sizes of the residual, free of units; NaN where it cannot be evaluated.
+  struct ResidualSize
+  {
+    /// |unbalanced forces| / |forces that act|, the latter being the larger of external loads and
+    /// reactions at the supports.
+    double force = 0;
+    /// |int N_p (Phi - p / kappa)| / |int N_p|: a volumetric strain; 0 without pressures.
+    double constraint = 0;
+    /// The part of `force` that rounding alone can produce: no iteration gets below.
+    double rounding = 0;
+    /// Smallest J over all quadrature points: not positive means an inverted cell.
+    double min_jacobian = 0;
+    /// Lagrangian, J.
+    double value = 0;
+  };
+
+  template <int dim>
+  class Equilibrium
+  {
+  public:
+    using BoundaryId = typename PrescribedDisplacements<dim>::BoundaryId;
+
+    /// Collective. @p discretisation must outlive this.
+    Equilibrium(const Discretisation<dim> &discretisation,
+                const Scene<dim>          &scene,
+                const BoundaryId          &boundary_id);
+
+    /// residual = dL/d(u, p) at @p state (ghosts are updated) and load factor @p load, with
+    /// zeros at the prescribed unknowns; their share, the reactions, goes to @p reactions if
+    /// given. Collective.
+    ResidualSize
+    residual(const Vector &state, double load, Vector &residual, Vector *reactions = nullptr) const;
+
+    /// Tangent before supports are applied. Not collective.
+    void tangent(const Vector &state, double load, SparseMatrix &matrix) const;
+
+    const PrescribedDisplacements<dim> &prescribed() const
+    {
+      return prescribed_;
+    }
+    const Discretisation<dim> &discretisation() const
+    {
+      return discretisation_;
+    }
+    /// A zero matrix of the tangent's pattern. All come from the same pattern.
+    SparseMatrix make_matrix() const
+    {
+      return pattern;
+    }
+
+  private:
+    const Discretisation<dim>         &discretisation_;
+    PrescribedDisplacements<dim>       prescribed_;
+    SparseMatrix                       pattern;
+    CellOffsets                        offsets;
+    std::unique_ptr<Term>              internal;
+    std::vector<std::unique_ptr<Term>> loads;
+    double                             volume_scale    = 0; ///< |int N_p|
+    double                             stiffness_scale = 0; ///< |diagonal of the tangent at rest|
+  };
+} // namespace isochor

@@ -1,0 +1,80 @@
+#pragma once
+
+// Newton's method with backtracking. It knows no physics: it gets callbacks and returns a report.
+
+#include <isochor/core/names.h>
+#include <isochor/core/types.h>
+
+#include <functional>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace isochor
+{
+  struct NewtonOptions
+  {
+    double       tolerance      = 1e-8; ///< of NewtonProblem::Size, relative
+    unsigned int max_iterations = 25;
+    unsigned int max_halvings   = 8; ///< of one step
+
+    static void declare(dealii::ParameterHandler &prm);
+    void        parse(dealii::ParameterHandler &prm);
+  };
+
+  /// Callbacks; all are collective and return the same on every rank.
+  struct NewtonProblem
+  {
+    struct Size
+    {
+      double merit = 0; ///< norm of the residual; NaN counts as infinitely large
+      /// The merit at which the iteration has converged, to the tolerance or to rounding.
+      double target     = 0;
+      bool   admissible = true; ///< false: outside the domain (an inverted cell)
+      /// How far prescribed values still are from where they must be; 0 once they are there.
+      double gap = 0;
+    };
+
+    struct Correction
+    {
+      bool        succeeded = false;
+      std::string failure; ///< why not
+    };
+
+    /// Residual at @p x.
+    std::function<Size(const Vector &x, Vector &residual)> residual;
+
+    /// Linearise at @p x and solve for the Newton step, prescribed values included.
+    std::function<Correction(const Vector &x, const Vector &residual, Vector &step)> correction;
+
+    /// Solve for the step that @p residual gives with the last linearisation (no new factors).
+    std::function<Correction(const Vector &residual, Vector &step)> simplified_correction;
+
+    /// Called after every accepted iterate; true asks to stop (an interrupt).
+    std::function<bool(unsigned int iteration, const Size &size, double step_length)> accepted;
+  };
+
+  enum class NewtonOutcome
+  {
+    converged,
+    inverted,   ///< no step length keeps every J positive
+    stalled,    ///< no step length improves the residual
+    iterations, ///< maximum reached
+    linear,     ///< the linear solver failed
+    interrupted
+  };
+
+  struct NewtonReport
+  {
+    NewtonOutcome outcome    = NewtonOutcome::converged;
+    unsigned int  iterations = 0; ///< = factorisations
+    unsigned int  halvings   = 0;
+    double        merit      = 0; ///< last
+    std::string   reason;         ///< in words, empty if converged
+  };
+
+  /// On failure @p x is left at the last accepted iterate.
+  NewtonReport newton(const NewtonProblem &problem, const NewtonOptions &options, Vector &x);
+} // namespace isochor

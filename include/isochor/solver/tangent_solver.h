@@ -1,0 +1,55 @@
+#pragma once
+
+// One linearisation of an equilibrium: assemble, apply supports, factor, solve, check.
+
+#include <isochor/algebra/direct_solver.h>
+#include <isochor/core/stopwatch.h>
+#include <isochor/form/equilibrium.h>
+#include <isochor/solver/newton.h>
+
+namespace isochor
+{
+  struct LinearStatistics
+  {
+    unsigned int assemblies        = 0;
+    unsigned int factorisations    = 0;
+    unsigned int krylov_iterations = 0;
+    double       worst_residual    = 0; ///< largest true relative residual of a solve
+    /// Negative pivots minus pressure unknowns at the last factorisation: 0 certifies a stable
+    /// equilibrium; unknown for LU.
+    std::optional<long long> pivot_excess;
+    std::size_t              null_pivots = 0; ///< at the last factorisation
+    double                   flops       = 0; ///< of one factorisation
+    double                   megabytes   = 0; ///< of the factors
+  };
+
+  template <int dim>
+  class TangentSolver
+  {
+  public:
+    /// Analyses the pattern. Collective. References must outlive this.
+    TangentSolver(const Equilibrium<dim> &equilibrium, LinearSolver kind, Stopwatch &stopwatch);
+
+    /// step = Newton's step at @p state: moves the prescribed unknowns to their values at @p load and
+    /// solves K step = -residual for the others. Collective.
+    NewtonProblem::Correction
+    correction(const Vector &state, double load, const Vector &residual, Vector &step);
+
+    /// The same with the last factors and prescribed unknowns held. Collective.
+    NewtonProblem::Correction simplified_correction(const Vector &residual, Vector &step);
+
+    const LinearStatistics &statistics() const
+    {
+      return counts;
+    }
+
+  private:
+    NewtonProblem::Correction solve(const Vector &rhs, Vector &step);
+
+    const Equilibrium<dim>       &equilibrium;
+    Stopwatch                    &stopwatch;
+    SparseMatrix                  matrix;
+    std::unique_ptr<DirectSolver> factors;
+    LinearStatistics              counts;
+  };
+} // namespace isochor

@@ -1,0 +1,182 @@
+#include <isochor/element/simplex_quadrature.h>
+#include <isochor/form/loads.h>
+#include <isochor/space/matrix_pattern.h>
+
+namespace isochor
+{
+  Evaluation DeadLoad::add(const Vector &state, const double load, const Target &target) const
+  {
+    // In proportion to the load factor: fill once for a factor of one.
+    const double wanted = varies ? load : 1.;
+    if (filled_for != wanted)
+      {
+        force = 0.;
+        fill(wanted, force);
+        force.zero_out_ghost_values();
+        filled_for = wanted;
+      }
+
+    const double scale = varies ? 1. : load;
+    Evaluation   evaluation;
+    for (LocalIndex i = 0; i < force.locally_owned_size(); ++i)
+      {
+        const double f = scale * force.local_element(i);
+        evaluation.value -= f * state.local_element(i);
+        if (target.residual != nullptr)
+          target.residual->local_element(i) -= f;
+      }
+    return evaluation;
+  }
+
+  template <int dim>
+  BodyForce<dim>::BodyForce(const Discretisation<dim>    &discretisation,
+                            const double                  density,
+                            const dealii::Tensor<1, dim> &gravity)
+    : DeadLoad(discretisation.make_vector(), false)
+    , discretisation(discretisation)
+    , weight(density * gravity)
+  {
+  }
+
+  template <int dim>
+  void BodyForce<dim>::fill(const double load, Vector &force) const
+  {
+    const CellTables<dim> &cells      = discretisation.cells;
+    const auto             quadrature = simplex_quadrature<dim>(discretisation.x_shape.degree());
+    std::vector<double>    share(cells.n_x, 0.); // int N_a on the reference cell
+    for (unsigned int a = 0; a < cells.n_x; ++a)
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        share[a] += quadrature.weight(q) * discretisation.x_shape.value(a, quadrature.point(q));
+
+    for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
+      for (unsigned int a = 0; a < cells.n_x; ++a)
+        for (unsigned int c = 0; c < dim; ++c)
+          force.local_element(cells.x[cell * cells.n_x + a] + c)
+              += load * weight[c] * share[a] * cells.determinant[cell];
+  }
+
+  template <int dim>
+  TractionLoad<dim>::TractionLoad(const Discretisation<dim>       &discretisation,
+                                  const dealii::types::boundary_id boundary,
+                                  std::vector<Expression<dim>>     traction)
+    : DeadLoad(discretisation.make_vector(), true)
+    , discretisation(discretisation)
+    , boundary(boundary)
+    , traction(std::move(traction))
+    , tables(discretisation.x_shape, 2 * discretisation.x_shape.degree() + 1)
+  {
+  }
+
+  template <int dim>
+  void TractionLoad<dim>::fill(const double load, Vector &force) const
+  {
+    const CellTables<dim> &cells = discretisation.cells;
+    for (const BoundaryFace &face : discretisation.boundary_faces)
+      if (face.id == boundary)
+        {
+          const FaceTable<dim> &table = tables[face.face];
+          for (const auto &at : table.points)
+            {
+              const auto             point = evaluate_face(cells, face, table, at, nullptr);
+              dealii::Tensor<1, dim> t;
+              for (unsigned int c = 0; c < dim; ++c)
+                t[c] = load * traction[c].value(point.reference_position, load)
+                       * point.reference_area * at.weight;
+              for (unsigned int n = 0; n < table.nodes.size(); ++n)
+                for (unsigned int c = 0; c < dim; ++c)
+                  force.local_element(cells.x[face.cell * cells.n_x + table.nodes[n]] + c)
+                      += at.value[n] * t[c];
+            }
+        }
+  }
+
+  template <int dim>
+  FollowerPressure<dim>::FollowerPressure(const Discretisation<dim>       &discretisation,
+                                          const dealii::types::boundary_id boundary,
+                                          Expression<dim>                  pressure)
+    : discretisation(discretisation)
+    , boundary(boundary)
+    , pressure(std::move(pressure))
+    , tables(discretisation.x_shape, FaceTables<dim>::exact_degree(discretisation.x_shape))
+  {
+  }
+
+  template <int dim>
+  Evaluation
+  FollowerPressure<dim>::add(const Vector &state, const double load, const Target &target) const
+  {
+    const CellTables<dim> &cells = discretisation.cells;
+    for (const BoundaryFace &face : discretisation.boundary_faces)
+      if (face.id == boundary)
+        {
+          const FaceTable<dim> &table = tables[face.face];
+          for (const auto &at : table.points)
+            {
+              const auto   point = evaluate_face(cells, face, table, at, state.begin());
+              const double p = load * pressure.value(point.reference_position, load) * at.weight;
+              if (target.residual != nullptr)
+                for (unsigned int n = 0; n < table.nodes.size(); ++n)
+                  for (unsigned int i = 0; i < dim; ++i)
+                    target.residual->local_element(cells.x[face.cell * cells.n_x + table.nodes[n]]
+                                                   + i)
+                        += p * at.value[n] * point.normal[i];
+              if (target.tangent != nullptr)
+                add_tangent(face, table, at, point, p, target);
+            }
+        }
+    return {};
+  }
+
+  template <int dim>
+  void FollowerPressure<dim>::add_tangent(const BoundaryFace                &face,
+                                          const FaceTable<dim>              &table,
+                                          const typename FaceTable<dim>::At &at,
+                                          const FacePoint<dim>              &point,
+                                          const double                       pressure,
+                                          const Target                      &target) const
+  {
+    const CellTables<dim> &cells     = discretisation.cells;
+    double                *values    = target.tangent->values().data();
+    const auto            &row_start = target.tangent->row_start();
+    for (unsigned int b = 0; b < table.nodes.size(); ++b)
+      {
+        // slope[i][k] = d (n da)_i / d u_bk
+        dealii::Tensor<2, dim> slope;
+        if constexpr (dim == 2)
+          {
+            slope[0][1] = at.derivative[b][0];
+            slope[1][0] = -at.derivative[b][0];
+          }
+        else
+          {
+            // e_k x t_2 dN_b/ds_1 + t_1 x e_k dN_b/ds_2 = e_k x w
+            const auto w
+                = at.derivative[b][0] * point.tangents[1] - at.derivative[b][1] * point.tangents[0];
+            for (unsigned int k = 0; k < 3; ++k)
+              {
+                slope[(k + 1) % 3][k] = -w[(k + 2) % 3];
+                slope[(k + 2) % 3][k] = w[(k + 1) % 3];
+              }
+          }
+        slope *= pressure * table.sign;
+
+        for (unsigned int a = 0; a < table.nodes.size(); ++a)
+          {
+            const LocalIndex head = cells.x[face.cell * cells.n_x + table.nodes[a]];
+            if (head >= cells.n_owned_unknowns)
+              continue;
+            const auto offset = target.offsets->row(face.cell, table.nodes[a])[table.nodes[b]];
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int k = 0; k < dim; ++k)
+                values[row_start[head + i] + offset + k] += at.value[a] * slope[i][k];
+          }
+      }
+  }
+
+  template class BodyForce<2>;
+  template class BodyForce<3>;
+  template class TractionLoad<2>;
+  template class TractionLoad<3>;
+  template class FollowerPressure<2>;
+  template class FollowerPressure<3>;
+} // namespace isochor
