@@ -1,0 +1,80 @@
+#pragma once
+
+// Probes: the figures a scene asks for, measured on a state.
+
+#include <isochor/scene/scene.h>
+#include <isochor/space/face_tables.h>
+
+#include <functional>
+
+namespace isochor
+{
+  struct ProbeColumn
+  {
+    std::string name; ///< "tip y"
+    std::string unit; ///< "m"; empty if it has none
+    std::string title() const
+    {
+      return unit.empty() ? name : name + " [" + unit + "]";
+    }
+  };
+
+  template <int dim>
+  class Probes
+  {
+  public:
+    using BoundaryId = std::function<dealii::types::boundary_id(const std::string &name,
+                                                                const std::string &what)>;
+
+    /// Collective. Throws UserError for an unknown boundary, a point outside the body, a cavity
+    /// whose boundary is not closed.
+    Probes(const Discretisation<dim>            &discretisation,
+           const std::vector<ProbeRequest<dim>> &requests,
+           const BoundaryId                     &boundary_id);
+
+    const std::vector<ProbeColumn> &columns() const
+    {
+      return columns_;
+    }
+
+    /// One value per column. @p state with ghosts; @p reactions as from Equilibrium::residual.
+    /// Collective.
+    std::vector<double> measure(const Vector &state, const Vector &reactions) const;
+
+  private:
+    struct Probe
+    {
+      ProbeRequest<dim>                         request;
+      std::optional<dealii::types::boundary_id> boundary; ///< none: the whole body
+      std::vector<LocalIndex>                   nodes;    ///< owned displacement nodes it covers
+      /// Of a point: the cell if it is on this rank, and the point's place in it.
+      std::optional<std::pair<LocalIndex, dealii::Point<dim>>> place;
+    };
+
+    void add_columns(const ProbeRequest<dim> &request);
+    void locate(Probe &probe) const;
+    void check_closed(const Probe &probe) const;
+
+    dealii::Tensor<1, dim> mean_displacement(const Probe &probe, const Vector &state) const;
+    dealii::Tensor<1, dim> point_displacement(const Probe &probe, const Vector &state) const;
+    std::vector<double>    extremes(const Probe &probe, const Vector &state) const;
+    double                 cavity_volume(const Probe &probe, const double *values) const;
+    std::vector<double> components(const Probe &probe, const dealii::Tensor<1, dim> &vector) const;
+
+    const Discretisation<dim> &discretisation;
+    FaceTables<dim>            faces;
+    std::vector<Probe>         probes;
+    std::vector<ProbeColumn>   columns_;
+  };
+
+  /// Volume of the deformed body, m^3 (2D: m^2). Collective.
+  template <int dim>
+  double deformed_volume(const Discretisation<dim> &discretisation, const Vector &state);
+
+  /// CB = |p - S p|_M / |p - mean p|_M, S the volume-weighted nodal average of cell means, M the
+  /// pressure mass matrix: above 0.5 the pressure oscillates and is not to be trusted. None for
+  /// displacement elements and for a constant pressure. Collective.
+  template <int dim>
+  std::optional<double> pressure_oscillation(const Discretisation<dim> &discretisation,
+                                             const Vector              &state);
+} // namespace isochor

@@ -1,0 +1,287 @@
+#include <isochor/core/error.h>
+#include <isochor/element/simplex_quadrature.h>
+#include <isochor/measure/probes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace isochor
+{
+  namespace
+  {
+    constexpr const char *component_names[] = { "x", "y", "z" };
+
+    template <int dim>
+    dealii::Tensor<1, dim> sum_over_ranks(const dealii::Tensor<1, dim> &mine, MPI_Comm communicator)
+    {
+      return dealii::Utilities::MPI::sum(mine, communicator);
+    }
+  } // namespace
+
+  template <int dim>
+  Probes<dim>::Probes(const Discretisation<dim>            &discretisation,
+                      const std::vector<ProbeRequest<dim>> &requests,
+                      const BoundaryId                     &boundary_id)
+    : discretisation(discretisation)
+    , faces(discretisation.x_shape,
+            std::max(FaceTables<dim>::exact_degree(discretisation.x_shape),
+                     2 * discretisation.x_shape.degree()))
+  {
+    const CellTables<dim> &cells = discretisation.cells;
+    for (const auto &request : requests)
+      {
+        Probe probe{ request, {}, {}, {} };
+        if (!request.boundary.empty())
+          probe.boundary = boundary_id(request.boundary, "Scene/Probes: '" + request.name + "'");
+
+        if (probe.boundary)
+          {
+            for (const BoundaryFace &face : discretisation.boundary_faces)
+              if (face.id == *probe.boundary)
+                for (const unsigned int a : faces[face.face].nodes)
+                  probe.nodes.push_back(cells.x[face.cell * cells.n_x + a]);
+          }
+        else
+          probe.nodes = cells.x;
+        std::sort(probe.nodes.begin(), probe.nodes.end());
+        probe.nodes.erase(std::unique(probe.nodes.begin(), probe.nodes.end()), probe.nodes.end());
+        probe.nodes.erase(
+            std::lower_bound(probe.nodes.begin(), probe.nodes.end(), cells.n_owned_unknowns),
+            probe.nodes.end());
+
+        if (request.kind == ProbeKind::point_displacement)
+          locate(probe);
+        if (request.kind == ProbeKind::cavity_volume)
+          check_closed(probe);
+        probes.push_back(std::move(probe));
+        add_columns(request);
+      }
+  }
+
+  template <int dim>
+  void Probes<dim>::add_columns(const ProbeRequest<dim> &request)
+  {
+    std::string unit = "m";
+    if (request.kind == ProbeKind::volume || request.kind == ProbeKind::cavity_volume)
+      {
+        columns_.push_back({ request.name, dim == 2 ? "m^2" : "m^3" });
+        return;
+      }
+    if (request.kind == ProbeKind::reaction)
+      unit = dim == 2 ? "N/m" : "N";
+    if (request.component)
+      columns_.push_back({ request.name, unit });
+    else
+      for (unsigned int c = 0; c < dim; ++c)
+        columns_.push_back({ request.name + " " + component_names[c], unit });
+  }
+
+  template <int dim>
+  void Probes<dim>::locate(Probe &probe) const
+  {
+    // The owned cell whose smallest barycentric coordinate of the point is largest; over all
+    // ranks the best one answers.
+    const CellTables<dim> &cells     = discretisation.cells;
+    double                 best      = -std::numeric_limits<double>::max();
+    LocalIndex             best_cell = 0;
+    dealii::Point<dim>     best_xi;
+    for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
+      {
+        const auto         d       = *probe.request.point - cells.vertices[cell * (dim + 1)];
+        const double      *inverse = cells.inverse(cell);
+        dealii::Point<dim> xi;
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int J = 0; J < dim; ++J)
+            xi[k] += inverse[k * dim + J] * d[J];
+        const auto   lambda = barycentric(xi);
+        const double inside = *std::min_element(lambda.begin(), lambda.end());
+        if (inside > best)
+          {
+            best      = inside;
+            best_cell = cell;
+            best_xi   = xi;
+          }
+      }
+    const MPI_Comm communicator = discretisation.communicator();
+    const double   best_of_all  = dealii::Utilities::MPI::max(best, communicator);
+    if (best_of_all < -1e-6)
+      throw UserError("Scene/Probes: '" + probe.request.name + "': the point is not in the body");
+    const unsigned int rank      = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int answering = dealii::Utilities::MPI::min(
+        best == best_of_all ? rank : dealii::Utilities::MPI::n_mpi_processes(communicator),
+        communicator);
+    if (rank == answering)
+      probe.place = { best_cell, best_xi };
+  }
+
+  template <int dim>
+  void Probes<dim>::check_closed(const Probe &probe) const
+  {
+    dealii::Tensor<1, dim> total;
+    double                 area = 0;
+    for (const BoundaryFace &face : discretisation.boundary_faces)
+      if (face.owned && face.id == *probe.boundary)
+        for (const auto &at : faces[face.face].points)
+          {
+            const auto point = evaluate_face(discretisation.cells,
+                                             face,
+                                             faces[face.face],
+                                             at,
+                                             static_cast<const double *>(nullptr));
+            total += at.weight * point.normal;
+            area += at.weight * point.reference_area;
+          }
+    const MPI_Comm communicator = discretisation.communicator();
+    total                       = sum_over_ranks(total, communicator);
+    area                        = dealii::Utilities::MPI::sum(area, communicator);
+    if (!(total.norm() <= 1e-8 * area))
+      throw UserError("Scene/Probes: '" + probe.request.name + "': boundary '"
+                      + probe.request.boundary
+                      + "' is not closed, so it encloses no volume; name the whole surface of "
+                        "the cavity");
+  }
+
+  template <int dim>
+  std::vector<double> Probes<dim>::components(const Probe                  &probe,
+                                              const dealii::Tensor<1, dim> &vector) const
+  {
+    if (!probe.request.component)
+      return std::vector<double>(vector.begin_raw(), vector.end_raw());
+    if (*probe.request.component == dim)
+      return { vector.norm() };
+    return { vector[*probe.request.component] };
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> Probes<dim>::mean_displacement(const Probe  &probe,
+                                                        const Vector &state) const
+  {
+    const CellTables<dim> &cells = discretisation.cells;
+    dealii::Tensor<1, dim> total;
+    double                 measure = 0;
+    if (probe.boundary)
+      {
+        for (const BoundaryFace &face : discretisation.boundary_faces)
+          if (face.owned && face.id == *probe.boundary)
+            for (const auto &at : faces[face.face].points)
+              {
+                const auto point = evaluate_face(cells, face, faces[face.face], at, state.begin());
+                total += at.weight * point.reference_area * point.displacement;
+                measure += at.weight * point.reference_area;
+              }
+      }
+    else
+      {
+        const auto quadrature = simplex_quadrature<dim>(discretisation.x_shape.degree());
+        for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
+          for (unsigned int q = 0; q < quadrature.size(); ++q)
+            {
+              const double weight = cells.determinant[cell] * quadrature.weight(q);
+              measure += weight;
+              for (unsigned int a = 0; a < cells.n_x; ++a)
+                for (unsigned int c = 0; c < dim; ++c)
+                  total[c] += weight * discretisation.x_shape.value(a, quadrature.point(q))
+                              * state.local_element(cells.x[cell * cells.n_x + a] + c);
+            }
+      }
+    const MPI_Comm communicator = discretisation.communicator();
+    return sum_over_ranks(total, communicator) / dealii::Utilities::MPI::sum(measure, communicator);
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> Probes<dim>::point_displacement(const Probe  &probe,
+                                                         const Vector &state) const
+  {
+    const CellTables<dim> &cells = discretisation.cells;
+    dealii::Tensor<1, dim> u;
+    if (probe.place)
+      for (unsigned int a = 0; a < cells.n_x; ++a)
+        for (unsigned int c = 0; c < dim; ++c)
+          u[c] += discretisation.x_shape.value(a, probe.place->second)
+                  * state.local_element(cells.x[probe.place->first * cells.n_x + a] + c);
+    return sum_over_ranks(u, discretisation.communicator());
+  }
+
+  template <int dim>
+  std::vector<double> Probes<dim>::extremes(const Probe &probe, const Vector &state) const
+  {
+    const bool   smallest = probe.request.kind == ProbeKind::min_displacement;
+    const double sign     = smallest ? -1. : 1.;
+
+    std::vector<double> best(probe.request.component ? 1 : dim,
+                             -std::numeric_limits<double>::max());
+    for (const LocalIndex node : probe.nodes)
+      {
+        dealii::Tensor<1, dim> u;
+        for (unsigned int c = 0; c < dim; ++c)
+          u[c] = state.local_element(node + c);
+        const auto values = components(probe, u);
+        for (std::size_t k = 0; k < best.size(); ++k)
+          best[k] = std::max(best[k], sign * values[k]);
+      }
+    for (double &value : best)
+      value = sign * dealii::Utilities::MPI::max(value, discretisation.communicator());
+    return best;
+  }
+
+  template <int dim>
+  double Probes<dim>::cavity_volume(const Probe &probe, const double *values) const
+  {
+    // The body's outward normal points into the cavity: V = -1/d oint x . n da.
+    double volume = 0;
+    for (const BoundaryFace &face : discretisation.boundary_faces)
+      if (face.owned && face.id == *probe.boundary)
+        for (const auto &at : faces[face.face].points)
+          {
+            const auto point
+                = evaluate_face(discretisation.cells, face, faces[face.face], at, values);
+            volume
+                -= at.weight * (point.reference_position + point.displacement) * point.normal / dim;
+          }
+    return dealii::Utilities::MPI::sum(volume, discretisation.communicator());
+  }
+
+  template <int dim>
+  std::vector<double> Probes<dim>::measure(const Vector &state, const Vector &reactions) const
+  {
+    std::vector<double> values;
+    const auto          append = [&](const std::vector<double> &more) {
+      values.insert(values.end(), more.begin(), more.end());
+    };
+    for (const Probe &probe : probes)
+      switch (probe.request.kind)
+        {
+          case ProbeKind::mean_displacement:
+            append(components(probe, mean_displacement(probe, state)));
+            break;
+          case ProbeKind::point_displacement:
+            append(components(probe, point_displacement(probe, state)));
+            break;
+          case ProbeKind::min_displacement:
+          case ProbeKind::max_displacement:
+            append(extremes(probe, state));
+            break;
+          case ProbeKind::volume:
+            append({ deformed_volume(discretisation, state) });
+            break;
+          case ProbeKind::cavity_volume:
+            append({ cavity_volume(probe, state.begin()) });
+            break;
+          case ProbeKind::reaction:
+            {
+              dealii::Tensor<1, dim> total;
+              for (const LocalIndex node : probe.nodes)
+                for (unsigned int c = 0; c < dim; ++c)
+                  total[c] += reactions.local_element(node + c);
+              append(components(probe, sum_over_ranks(total, discretisation.communicator())));
+              break;
+            }
+        }
+    return values;
+  }
+
+  template class Probes<2>;
+  template class Probes<3>;
+} // namespace isochor
