@@ -1,0 +1,45 @@
+#pragma once
+
+// How a scene is computed: element, linear solver, Newton, stepping. And where results go.
+
+#include <isochor/algebra/direct_solver.h>
+#include <isochor/element/element_table.h>
+#include <isochor/march/quasi_static.h>
+#include <isochor/scene/scene.h>
+
+namespace isochor
+{
+  struct Method
+  {
+    Element         element;
+    LinearSolver    linear_solver = LinearSolver::mumps;
+    NewtonOptions   newton;
+    SteppingOptions stepping;
+
+    static void   declare(dealii::ParameterHandler &prm);
+    static Method parse(dealii::ParameterHandler &prm);
+  };
+
+  /// Throws UserError if @p method cannot compute @p material on @p n_ranks ranks, with what can.
+  void check_legal(const Method &method, const Material &material, unsigned int n_ranks);
+
+  enum class VtuOutput
+  {
+    none,
+    final_state,
+    every_step
+  };
+  inline constexpr auto vtu_output_names
+      = name_table<VtuOutput>({ { VtuOutput::none, "none" },
+                                { VtuOutput::final_state, "final" },
+                                { VtuOutput::every_step, "steps" } });
+
+  struct OutputOptions
+  {
+    std::string folder; ///< empty: results/<stem of the parameter file>
+    VtuOutput   vtu = VtuOutput::every_step;
+
+    static void          declare(dealii::ParameterHandler &prm);
+    static OutputOptions parse(dealii::ParameterHandler &prm);
+  };
+} // namespace isochor

@@ -1,0 +1,50 @@
+#pragma once
+
+// Run: Scene x Method -> Result.
+
+#include <isochor/measure/probes.h>
+#include <isochor/mesh/raw_mesh.h>
+#include <isochor/run/method.h>
+
+#include <filesystem>
+
+namespace isochor
+{
+  /// One line of results.csv.
+  struct RunResult
+  {
+    std::string status; ///< name of a RunStatus, or "refused" (bad input of one run of a study)
+    std::string reason; ///< empty if converged
+
+    GlobalIndex                                      cells = 0, unknowns = 0;
+    MarchReport                                      march;
+    LinearStatistics                                 linear;
+    std::array<double, std::size_t(Phase::n_phases)> seconds{};
+    double                                           seconds_total  = 0;
+    double                                           peak_megabytes = 0; ///< largest rank
+    std::vector<ProbeColumn>                         probe_columns;
+    std::vector<double>                              probe_values;
+    double                                           volume_ratio = 1; ///< deformed / reference
+    std::optional<double>                            oscillation;
+    MeshQuality                                      quality;
+    std::vector<std::string>                         warnings; ///< plain words for the user
+
+    bool converged() const
+    {
+      return status == run_status_names.name(RunStatus::converged);
+    }
+  };
+
+  struct RunSettings
+  {
+    MPI_Comm              communicator;
+    std::filesystem::path folder; ///< for VTU files and steps.csv; exists
+    VtuOutput             vtu        = VtuOutput::every_step;
+    bool                  check_only = false; ///< everything up to the first load step
+    bool                  show_steps = false; ///< a line per load step on std::cout of rank 0
+  };
+
+  /// Throws UserError on every rank for what the user must mend. Collective.
+  template <int dim>
+  RunResult run(const Scene<dim> &scene, const Method &method, const RunSettings &settings);
+} // namespace isochor

@@ -1,0 +1,216 @@
+#include <isochor/output/table.h>
+#include <isochor/run/result_rows.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace isochor
+{
+  namespace
+  {
+    std::string number(const double value, const char *format = "%.5g")
+    {
+      char text[64];
+      std::snprintf(text, sizeof text, format, value);
+      return text;
+    }
+
+    std::string optional_number(const std::optional<double> &value)
+    {
+      return value ? csv_number(*value) : "";
+    }
+
+    /// Columns of one vector probe share their name up to the last blank: "tip x", "tip y".
+    std::string family(const ProbeColumn &column)
+    {
+      return column.name.substr(0, column.name.rfind(' '));
+    }
+
+    /// Length against which column @p k is compared.
+    double scale_of(const std::vector<ProbeColumn> &columns,
+                    const std::vector<double>      &values,
+                    const std::size_t               k)
+    {
+      double squared = 0;
+      for (std::size_t other = 0; other < columns.size(); ++other)
+        if (other == k || family(columns[other]) == family(columns[k]))
+          squared += values[other] * values[other];
+      return std::sqrt(squared);
+    }
+
+    bool has_values(const RunResult *result)
+    {
+      return result != nullptr && result->converged();
+    }
+
+    double seconds(const RunResult &result, const Phase phase)
+    {
+      return result.seconds[static_cast<std::size_t>(phase)];
+    }
+  } // namespace
+
+  ProbeErrors compare(const RunResult                     &result,
+                      const RunResult                     *reference,
+                      const RunResult                     *check,
+                      const std::map<std::string, double> &known_values)
+  {
+    const std::size_t n = result.probe_columns.size();
+    ProbeErrors       errors{ std::vector<std::optional<double>>(n),
+                        std::vector<std::optional<double>>(n) };
+    if (!result.converged())
+      return errors;
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        const auto known = known_values.find(result.probe_columns[k].name);
+        if (known != known_values.end())
+          errors.error[k]
+              = std::abs(result.probe_values[k] - known->second) / std::abs(known->second);
+        else if (has_values(reference))
+          {
+            const double scale = scale_of(result.probe_columns, reference->probe_values, k);
+            if (!(scale > 0))
+              continue;
+            errors.error[k] = std::abs(result.probe_values[k] - reference->probe_values[k]) / scale;
+            if (has_values(check))
+              errors.uncertainty[k]
+                  = std::abs(check->probe_values[k] - reference->probe_values[k]) / scale;
+          }
+      }
+    return errors;
+  }
+
+  ResultRow result_row(const StudyPlan                &plan,
+                       const PlannedRun               &planned,
+                       const RunResult                &result,
+                       const ProbeErrors              &errors,
+                       const std::vector<ProbeColumn> &probe_columns)
+  {
+    ResultRow  row;
+    const auto add
+        = [&](const std::string &name, const std::string &value) { row.emplace_back(name, value); };
+    for (const std::string &key : plan.keys)
+      add(key, planned.assignments.at(key));
+    add("cells", std::to_string(result.cells));
+    add("unknowns", std::to_string(result.unknowns));
+    add("load factor", csv_number(result.march.load));
+    add("load steps", std::to_string(result.march.load_steps));
+    add("failed steps", std::to_string(result.march.failed_steps));
+    add("newton iterations", std::to_string(result.march.newton_iterations));
+    add("factorisations", std::to_string(result.linear.factorisations));
+    add("krylov iterations", std::to_string(result.linear.krylov_iterations));
+    for (std::size_t k = 0; k < result.seconds.size(); ++k)
+      add("seconds " + name_of(static_cast<Phase>(k)), csv_number(result.seconds[k]));
+    add("seconds total", csv_number(result.seconds_total));
+    add("peak memory MB", csv_number(result.peak_megabytes));
+    // A run that did not converge has no probe values to compare; steps.csv has its history.
+    for (std::size_t k = 0; k < probe_columns.size(); ++k)
+      {
+        const bool valid = result.converged();
+        add(probe_columns[k].title(), valid ? csv_number(result.probe_values[k]) : "");
+        add(probe_columns[k].name + " error", valid ? optional_number(errors.error[k]) : "");
+        add(probe_columns[k].name + " reference uncertainty",
+            valid ? optional_number(errors.uncertainty[k]) : "");
+      }
+    add("volume ratio", csv_number(result.volume_ratio));
+    add("min J", csv_number(result.march.size.min_jacobian));
+    add("pressure oscillation", optional_number(result.oscillation));
+    add("min angle [deg]", csv_number(result.quality.min_angle));
+    add("max aspect", csv_number(result.quality.max_aspect));
+    add("negative pivots excess",
+        result.linear.pivot_excess ? std::to_string(*result.linear.pivot_excess) : "");
+    add("null pivots", std::to_string(result.linear.null_pivots));
+    add("status", result.status);
+    add("reason", result.reason);
+    add("role", planned.in_grid ? "run" : "reference");
+    return row;
+  }
+
+  std::string study_table(const StudyPlan                &plan,
+                          const std::vector<RunResult>   &results,
+                          const std::vector<ProbeErrors> &errors,
+                          const std::vector<ProbeColumn> &probe_columns)
+  {
+    std::vector<std::string> header;
+    for (const std::string &key : plan.keys)
+      header.push_back(key.substr(key.rfind('/') + 1));
+    header.push_back("unknowns");
+    std::vector<std::size_t> shown; // columns with an error somewhere get an error column
+    for (std::size_t k = 0; k < probe_columns.size(); ++k)
+      {
+        header.push_back(probe_columns[k].title());
+        for (const ProbeErrors &error : errors)
+          if (k < error.error.size() && error.error[k])
+            {
+              shown.push_back(k);
+              header.push_back("error %");
+              break;
+            }
+      }
+    for (const char *name : { "Newton", "seconds", "status" })
+      header.emplace_back(name);
+
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t r = 0; r < plan.runs.size() && r < results.size(); ++r)
+      {
+        const RunResult         &result = results[r];
+        std::vector<std::string> row;
+        for (const std::string &key : plan.keys)
+          row.push_back(plan.runs[r].assignments.at(key));
+        row.push_back(std::to_string(result.unknowns));
+        for (std::size_t k = 0; k < probe_columns.size(); ++k)
+          {
+            const bool valid = result.converged();
+            row.push_back(valid ? number(result.probe_values[k]) : "");
+            for (const std::size_t s : shown)
+              if (s == k)
+                row.push_back(
+                    valid && errors[r].error[k] ? number(100. * *errors[r].error[k], "%.3g") : "");
+          }
+        row.push_back(std::to_string(result.march.newton_iterations));
+        row.push_back(number(result.seconds_total, "%.3g"));
+        row.push_back(result.converged() && !plan.runs[r].in_grid ? "reference" : result.status);
+        rows.push_back(std::move(row));
+      }
+    return format_table(header, rows);
+  }
+
+  std::string run_summary(const RunResult &result)
+  {
+    std::ostringstream out;
+    out << "status             " << result.status
+        << (result.reason.empty() ? "" : ": " + result.reason) << '\n';
+    for (std::size_t k = 0; k < result.probe_columns.size(); ++k)
+      out << result.probe_columns[k].title()
+          << std::string(result.probe_columns[k].title().size() < 18
+                             ? 19 - result.probe_columns[k].title().size()
+                             : 1,
+                         ' ')
+          << number(result.probe_values[k], "%.6g") << '\n';
+    out << "volume ratio       " << number(result.volume_ratio, "%.6f") << ", min J "
+        << number(result.march.size.min_jacobian) << '\n'
+        << "load steps         " << result.march.load_steps << " (" << result.march.failed_steps
+        << " failed), Newton iterations " << result.march.newton_iterations << ", factorisations "
+        << result.linear.factorisations << ", Krylov iterations " << result.linear.krylov_iterations
+        << '\n';
+    if (result.linear.pivot_excess)
+      out << "negative pivots    " << *result.linear.pivot_excess
+          << " more than pressure unknowns\n";
+    if (result.oscillation)
+      out << "pressure CB        " << number(*result.oscillation, "%.3f") << '\n';
+    out << "seconds            ";
+    for (std::size_t k = 0; k < result.seconds.size(); ++k)
+      out << name_of(static_cast<Phase>(k)) << ' ' << number(result.seconds[k], "%.3f") << ", ";
+    out << "total " << number(result.seconds_total, "%.3f") << '\n'
+        << "per Newton step    assembly "
+        << number(1e6 * seconds(result, Phase::assembly)
+                      / std::max<double>(1., double(result.cells) * result.linear.factorisations),
+                  "%.2f")
+        << " microseconds per cell\n"
+        << "memory             " << number(result.peak_megabytes, "%.0f") << " MB at most, factors "
+        << number(result.linear.megabytes, "%.0f") << " MB, "
+        << number(result.linear.flops / 1e9, "%.2f") << " GFlop per factorisation\n";
+    for (const std::string &warning : result.warnings)
+      out << "warning            " << warning << '\n';
+    return out.str();
+  }
+} // namespace isochor

@@ -1,0 +1,179 @@
+#include <isochor/mesh/mesh.h>
+#include <isochor/output/results_csv.h>
+#include <isochor/output/vtu.h>
+#include <isochor/run/interrupt.h>
+#include <isochor/run/progress.h>
+#include <isochor/run/run.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace isochor
+{
+  namespace
+  {
+    /// Linux keeps the peak for the process; a study wants it for each run.
+    void reset_peak_memory()
+    {
+      std::ofstream("/proc/self/clear_refs") << "5";
+    }
+
+    double peak_megabytes(MPI_Comm communicator)
+    {
+      dealii::Utilities::System::MemoryStats memory;
+      dealii::Utilities::System::get_memory_stats(memory);
+      return dealii::Utilities::MPI::max(memory.VmHWM / 1024., communicator);
+    }
+
+    std::vector<std::string> warnings_of(const RunResult &result, const Element &element)
+    {
+      std::vector<std::string> warnings;
+      const auto               add = [&](const auto &...parts) {
+        std::ostringstream text;
+        (text << ... << parts);
+        warnings.push_back(text.str());
+      };
+      if (result.linear.pivot_excess.value_or(0) > 0)
+        add("the equilibrium is not stable: ",
+            *result.linear.pivot_excess,
+            " negative pivots too many; the body would buckle or snap into another shape");
+      if (result.linear.pivot_excess.value_or(0) < 0 || result.linear.null_pivots > 0)
+        add("the pressure is not determined: ",
+            result.linear.null_pivots,
+            " null pivots (spurious pressure modes); choose P2-P1, or a Poisson ratio a little "
+            "below 0.5");
+      if (result.oscillation.value_or(0) > 0.5)
+        add("the pressure oscillates (CB = ",
+            *result.oscillation,
+            "): trust the displacements of ",
+            element.name,
+            ", not its pressures; choose P2-P1 for pressures");
+      return warnings;
+    }
+
+    /// Load-displacement history: steps.csv.
+    class StepTable
+    {
+    public:
+      StepTable(const RunSettings &settings, const std::vector<ProbeColumn> &columns)
+        : columns(columns)
+        , csv(settings.communicator, settings.folder / "steps.csv")
+      {
+      }
+
+      void add(const LoadStep &step, const std::vector<double> &values)
+      {
+        ResultRow row = { { "step", std::to_string(step.number) },
+                          { "load factor", csv_number(step.load) },
+                          { "newton iterations", std::to_string(step.newton.iterations) },
+                          { "residual", csv_number(step.newton.merit) },
+                          { "min J", csv_number(step.size.min_jacobian) },
+                          { "seconds", csv_number(step.seconds) } };
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          row.emplace_back(columns[k].title(), csv_number(values[k]));
+        csv.add(row);
+      }
+
+    private:
+      const std::vector<ProbeColumn> &columns;
+      ResultsCsv                      csv;
+    };
+  } // namespace
+
+  template <int dim>
+  RunResult run(const Scene<dim> &scene, const Method &method, const RunSettings &settings)
+  {
+    const MPI_Comm communicator = settings.communicator;
+    const bool     talks
+        = settings.show_steps && dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    check_legal(method, scene.material, dealii::Utilities::MPI::n_mpi_processes(communicator));
+    check_loads_against_supports(scene);
+    reset_peak_memory();
+
+    Stopwatch stopwatch;
+    RunResult result;
+
+    std::unique_ptr<Mesh<dim>> mesh;
+    {
+      const auto scope = stopwatch.measure(Phase::mesh);
+      mesh             = make_mesh<dim>(scene.mesh, communicator);
+    }
+    result.quality         = mesh->quality;
+    const auto boundary_id = [&](const std::string &name, const std::string &what) {
+      return mesh->boundary_id(name, what);
+    };
+
+    std::optional<Stopwatch::Scope> setup_scope(std::in_place, stopwatch, Phase::setup);
+    const Discretisation<dim>       discretisation(mesh->triangulation, method.element);
+    const Equilibrium<dim>          equilibrium(discretisation, scene, boundary_id);
+    const Probes<dim>               probes(discretisation, scene.probes, boundary_id);
+    setup_scope.reset();
+    result.cells         = discretisation.n_cells;
+    result.unknowns      = discretisation.n_unknowns();
+    result.probe_columns = probes.columns();
+    if (talks)
+      print_summary(result, std::string(method.element.name));
+    if (settings.check_only)
+      {
+        result.status = "checked";
+        return result;
+      }
+
+    TangentSolver<dim> tangent_solver(equilibrium, method.linear_solver, stopwatch);
+    Vector             state = discretisation.make_vector(), scratch(state), reactions(state);
+    state.update_ghost_values();
+
+    VtuSeries<dim> vtu(discretisation, scene.material, settings.folder);
+    StepTable      steps(settings, probes.columns());
+    const auto     measure = [&](const double load) {
+      equilibrium.residual(state, load, scratch, &reactions);
+      return probes.measure(state, reactions);
+    };
+
+    MarchCallbacks callbacks;
+    callbacks.converged = [&](const LoadStep &step, const Vector &) {
+      const auto scope = stopwatch.measure(Phase::output);
+      steps.add(step, measure(step.load));
+      if (settings.vtu == VtuOutput::every_step)
+        vtu.write(state, step.load, step.number);
+      if (talks)
+        print_step(step);
+    };
+    callbacks.failed = [&](const double load, const NewtonReport &report, const double next_step) {
+      if (talks)
+        print_failed_step(load, report, next_step);
+    };
+    callbacks.interrupted = [&]() { return interrupted(communicator); };
+
+    if (talks)
+      print_step_header();
+    result.march = march_quasi_static(
+        equilibrium, tangent_solver, method.newton, method.stepping, callbacks, stopwatch, state);
+
+    {
+      const auto scope    = stopwatch.measure(Phase::output);
+      result.probe_values = measure(result.march.load);
+      // The last converged state is on disk whatever happened.
+      if (settings.vtu == VtuOutput::final_state
+          || (settings.vtu == VtuOutput::every_step && result.march.load_steps == 0))
+        vtu.write(state, result.march.load, result.march.load_steps);
+      result.volume_ratio = deformed_volume(discretisation, state) / mesh->quality.total_volume;
+      result.oscillation  = pressure_oscillation(discretisation, state);
+    }
+    result.status = run_status_names.name(result.march.status);
+    result.reason = result.march.reason;
+    result.linear = tangent_solver.statistics();
+    for (std::size_t k = 0; k < result.seconds.size(); ++k)
+      result.seconds[k]
+          = dealii::Utilities::MPI::max(stopwatch.seconds(static_cast<Phase>(k)), communicator);
+    result.seconds_total  = dealii::Utilities::MPI::max(stopwatch.total(), communicator);
+    result.peak_megabytes = peak_megabytes(communicator);
+    result.warnings       = warnings_of(result, method.element);
+    return result;
+  }
+
+  template RunResult run(const Scene<2> &, const Method &, const RunSettings &);
+  template RunResult run(const Scene<3> &, const Method &, const RunSettings &);
+} // namespace isochor

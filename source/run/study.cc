@@ -1,0 +1,297 @@
+#include <isochor/run/interrupt.h>
+#include <isochor/run/progress.h>
+#include <isochor/run/result_rows.h>
+#include <isochor/run/study.h>
+
+#include <fstream>
+#include <iostream>
+
+namespace isochor
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    /// The marker by which a results folder is known as ours.
+    constexpr const char *parameters_file = "parameters.prm";
+
+    /// Make @p folder; what an earlier run left there goes only with @p overwrite. Rank 0 only.
+    void prepare_folder(const fs::path &folder, const bool overwrite)
+    {
+      std::error_code error;
+      if (fs::exists(folder, error))
+        {
+          if (!fs::is_directory(folder, error))
+            throw UserError("--output: '" + folder.string() + "' is not a folder");
+          if (!fs::is_empty(folder, error))
+            {
+              if (!overwrite)
+                throw UserError("--output: folder '" + folder.string()
+                                + "' exists and is not empty; choose another with --output, or "
+                                  "replace its results with --overwrite");
+              if (!fs::exists(folder / parameters_file, error))
+                throw UserError("--overwrite: folder '" + folder.string()
+                                + "' holds no results of Isochor; empty it yourself");
+              for (const auto &entry : fs::directory_iterator(folder))
+                {
+                  const std::string name = entry.path().filename().string();
+                  if (name.rfind("run_", 0) == 0 || name.rfind("solution", 0) == 0
+                      || name == "results.csv" || name == "steps.csv" || name == parameters_file)
+                    fs::remove_all(entry.path());
+                }
+            }
+        }
+      fs::create_directories(folder, error);
+      if (error)
+        throw UserError("--output: folder '" + folder.string()
+                        + "' cannot be made: " + error.message());
+      std::ofstream probe(folder / parameters_file);
+      if (!probe)
+        throw UserError("--output: folder '" + folder.string() + "' is not writable");
+    }
+
+    std::string run_folder_name(const std::size_t index)
+    {
+      char name[32];
+      std::snprintf(name, sizeof name, "run_%03zu", index + 1);
+      return name;
+    }
+
+    std::string describe(const Assignments &assignments)
+    {
+      std::string text;
+      for (const auto &[path, value] : assignments)
+        text += (text.empty() ? "" : ", ") + path.substr(path.rfind('/') + 1) + " " + value;
+      return text;
+    }
+
+    /// Values of one planned run.
+    void read_run(dealii::ParameterHandler &prm,
+                  const Invocation         &invocation,
+                  const Assignments        &assignments)
+    {
+      declare_parameters(prm);
+      std::vector<std::string> overrides = invocation.overrides;
+      for (const auto &[path, value] : assignments)
+        overrides.push_back(path + "=" + value);
+      read_parameter_file(prm, invocation.file, overrides);
+    }
+
+    template <int dim>
+    RunResult
+    run_planned(dealii::ParameterHandler &prm, const Invocation &invocation, RunSettings settings)
+    {
+      const auto scene  = Scene<dim>::parse(prm, fs::absolute(invocation.file).parent_path());
+      const auto method = Method::parse(prm);
+      settings.vtu      = OutputOptions::parse(prm).vtu;
+      return run(scene, method, settings);
+    }
+
+    RunResult run_planned(const Invocation  &invocation,
+                          const Assignments &assignments,
+                          const RunSettings &settings)
+    {
+      dealii::ParameterHandler prm;
+      read_run(prm, invocation, assignments);
+      if (dimension_of(prm) == 2)
+        return run_planned<2>(prm, invocation, settings);
+      return run_planned<3>(prm, invocation, settings);
+    }
+
+    /// All runs of a plan, in order, with results written as they come.
+    class StudyRunner
+    {
+    public:
+      StudyRunner(const Invocation &invocation,
+                  const StudyPlan  &plan,
+                  const fs::path   &folder,
+                  MPI_Comm          communicator)
+        : invocation(invocation)
+        , plan(plan)
+        , folder(folder)
+        , communicator(communicator)
+        , on_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        , talks(on_root && is_terminal())
+        , results(plan.runs.size())
+        , errors(plan.runs.size())
+      {
+      }
+
+      ExitCode execute()
+      {
+        ResultsCsv csv(communicator, folder / "results.csv");
+        ExitCode   code = ExitCode::converged;
+        for (std::size_t done = 0; done < plan.order.size(); ++done)
+          {
+            const std::size_t index   = plan.order[done];
+            const PlannedRun &planned = plan.runs[index];
+            if (talks && plan.is_study())
+              print_bar(done, plan.order.size(), describe(planned.assignments));
+
+            results[index] = run_one(index);
+            if (results[index].status == run_status_names.name(RunStatus::interrupted))
+              interrupted_at = done;
+            if (!results[index].converged())
+              code = ExitCode::not_converged;
+            // A refused run knows no probes; the columns come from one that does.
+            if (probe_columns.empty())
+              probe_columns = results[index].probe_columns;
+            write_ready_rows(csv, done);
+            if (interrupted_at)
+              break;
+          }
+        if (on_root)
+          report();
+        return code;
+      }
+
+    private:
+      RunResult run_one(const std::size_t index)
+      {
+        RunSettings settings{ communicator,
+                              plan.is_study() ? folder / run_folder_name(index) : folder,
+                              VtuOutput::every_step,
+                              invocation.check_only,
+                              talks && !plan.is_study() };
+        on_root_collectively(communicator, [&]() { fs::create_directories(settings.folder); });
+        try
+          {
+            return run_planned(invocation, plan.runs[index].assignments, settings);
+          }
+        catch (const UserError &error)
+          {
+            // Alone, bad input ends the program; in a study it is one failed run.
+            if (!plan.is_study())
+              throw;
+            RunResult refused;
+            refused.status = "refused";
+            refused.reason = error.what();
+            return refused;
+          }
+      }
+
+      const RunResult *finished(const std::optional<std::size_t> &index) const
+      {
+        return index && !results[*index].status.empty() ? &results[*index] : nullptr;
+      }
+
+      /// Rows are written once the columns are known, refused runs before that included.
+      void write_ready_rows(ResultsCsv &csv, const std::size_t done)
+      {
+        if (probe_columns.empty() && done + 1 < plan.order.size() && !interrupted_at)
+          return;
+        for (; n_written <= done; ++n_written)
+          {
+            const std::size_t index = plan.order[n_written];
+            errors[index]           = compare(results[index],
+                                    finished(plan.runs[index].reference),
+                                    finished(plan.runs[index].check),
+                                    plan.reference_values);
+            csv.add(
+                result_row(plan, plan.runs[index], results[index], errors[index], probe_columns));
+          }
+      }
+
+      void report() const
+      {
+        if (talks && plan.is_study())
+          {
+            print_bar(plan.order.size(), plan.order.size(), "");
+            std::cout << "\n";
+          }
+        if (plan.is_study())
+          {
+            std::cout << plan.title << "\n" << study_table(plan, results, errors, probe_columns);
+            for (std::size_t k = 0; k < results.size(); ++k)
+              {
+                for (const std::string &warning : results[k].warnings)
+                  std::cout << "warning: " << describe(plan.runs[k].assignments) << ": " << warning
+                            << "\n";
+                if (!results[k].status.empty() && !results[k].converged())
+                  std::cout << "failed: " << describe(plan.runs[k].assignments) << ": "
+                            << results[k].reason << "\n";
+              }
+          }
+        else
+          std::cout << run_summary(results.front());
+        std::cout << "results in " << folder.string() << std::endl;
+      }
+
+      const Invocation &invocation;
+      const StudyPlan  &plan;
+      const fs::path   &folder;
+      MPI_Comm          communicator;
+      const bool        on_root, talks;
+
+      std::vector<RunResult>     results; ///< by index of the plan; status empty: not run
+      std::vector<ProbeErrors>   errors;
+      std::vector<ProbeColumn>   probe_columns;
+      std::size_t                n_written = 0; ///< rows, in order of execution
+      std::optional<std::size_t> interrupted_at;
+    };
+
+    /// Everything up to the first load step, for every run. Throws at the first mistake.
+    void check_all(const Invocation &invocation, const StudyPlan &plan, MPI_Comm communicator)
+    {
+      const bool on_root = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+      for (const PlannedRun &planned : plan.runs)
+        {
+          const RunResult result = run_planned(
+              invocation, planned.assignments, { communicator, {}, VtuOutput::none, true, false });
+          if (on_root)
+            std::cout << "checked" << (planned.assignments.empty() ? "" : ": ")
+                      << describe(planned.assignments) << "; " << result.cells << " cells, "
+                      << result.unknowns << " unknowns" << std::endl;
+        }
+    }
+  } // namespace
+
+  void declare_parameters(dealii::ParameterHandler &prm)
+  {
+    Scene<3>::declare(prm);
+    Method::declare(prm);
+    OutputOptions::declare(prm);
+    StudyOptions::declare(prm);
+  }
+
+  ExitCode execute(const Invocation &invocation, MPI_Comm communicator)
+  {
+    StudyPlan   plan;
+    std::string output = invocation.output;
+    collectively(communicator, [&]() {
+      plan = plan_study(invocation.file, invocation.overrides);
+      if (output.empty())
+        {
+          dealii::ParameterHandler prm;
+          read_run(prm, invocation, plan.runs.front().assignments);
+          output = OutputOptions::parse(prm).folder;
+        }
+      if (output.empty())
+        output = "results/" + invocation.file.stem().string();
+    });
+
+    if (invocation.check_only)
+      {
+        check_all(invocation, plan, communicator);
+        return ExitCode::converged;
+      }
+    // A single run must not leave an empty folder behind when its input is bad, nor a study when
+    // its first run is.
+    if (!plan.is_study())
+      collectively(communicator, [&]() {
+        dealii::ParameterHandler prm;
+        read_run(prm, invocation, plan.runs.front().assignments);
+      });
+
+    const fs::path folder = output;
+    on_root_collectively(communicator, [&]() {
+      prepare_folder(folder, invocation.overwrite);
+      dealii::ParameterHandler prm;
+      declare_parameters(prm);
+      read_parameter_file(prm, invocation.file, invocation.overrides);
+      std::ofstream out(folder / parameters_file);
+      prm.print_parameters(out, dealii::ParameterHandler::ShortPRM);
+    });
+    return StudyRunner(invocation, plan, folder, communicator).execute();
+  }
+} // namespace isochor
