@@ -24,7 +24,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 from matplotlib.transforms import ScaledTranslation
 
-from results_table import BadTable, Study, failed, groups, number, short
+from results_table import (POISSON, UNITS, BadTable, Study, failed, groups, number, setting,
+                           short)
 
 # Okabe and Ito: told apart by colour-blind readers. Black is kept for the reference.
 COLOURS = ["#D55E00", "#E69F00", "#009E73", "#0072B2", "#56B4E9", "#CC79A7", "#7F7F7F", "#8B5A2B"]
@@ -35,8 +36,6 @@ DASHES = ["-", (0, (4, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1))]
 
 STRIP = 0.07  # height of the strip of failed runs, as part of the axes
 
-POISSON = "Scene/Poisson ratio"
-UNITS = {"Mesh size": "m", "Young's modulus": "Pa", "Density": "kg/m³", "Poisson ratio": ""}
 # Parameters that change the discretisation, not the problem: runs along them share a panel.
 RESOLUTION = {"Scene/Mesh size", "Scene/Cells"}
 
@@ -46,12 +45,6 @@ def style(study, method):
     i = known.index(method)
     return dict(color=COLOURS[i % len(COLOURS)], marker=MARKERS[i % len(MARKERS)],
                 linestyle=DASHES[i // len(COLOURS) % len(DASHES)])
-
-
-def setting(row, parameter):
-    name = "ν" if parameter == POISSON else short(parameter)
-    return f"{name} = {row[parameter]}" + (f" {UNITS[short(parameter)]}".rstrip()
-                                           if short(parameter) in UNITS else "")
 
 
 def slug(text):
@@ -230,7 +223,7 @@ def chart_against_parameter(study, folder, title, probe, parameter, what):
         label = probe.name + (f" [{probe.unit}]" if probe.unit else "")
     finish(figure, study, panels, axis.label, label, axis.position,
            lambda axes, rows: draw_uncertainty(axes, rows, probe, axis.position)
-           if what == "error" else draw_reference(axes, study, probe, axis))
+           if what == "error" else draw_reference(axes, study, rows, probe, axis))
     axis.apply(first)
     return save(figure, folder, f"{slug(probe.name)}_{what}_against_{slug(short(parameter))}")
 
@@ -251,10 +244,14 @@ def finish(figure, study, panels, x_label, y_label, position, draw_extra):
     legend(figure, study, any_failed, extra)
 
 
-def draw_reference(axes, study, probe, axis):
+def draw_reference(axes, study, rows, probe, axis):
+    """The reference runs of the same scene as ROWS, which may be finer."""
+    same = [n for n in study.varied if n not in RESOLUTION | {axis.parameter}
+            and not n.startswith("Method/")]
     points = sorted((axis.position(row), number(row[probe.column])) for row in study.reference
-                    if number(row.get(axis.parameter)) is not None and not failed(row)
-                    and number(row[probe.column]) is not None)
+                    if number(row[axis.parameter]) is not None
+                    and number(row[probe.column]) is not None and not failed(row)
+                    and all(row[n] == rows[0][n] for n in same))
     if not points:
         return []
     look = dict(color="black", linewidth=1.3, linestyle=(0, (3, 2)))
@@ -290,10 +287,20 @@ def chart_against_cost(study, folder, title, probe, column, label, name):
     return save(figure, folder, f"{slug(probe.name)}_error_against_{name}")
 
 
+def title_of(folder):
+    """The title that the study's parameters give, or the folder's name."""
+    parameters = folder / "parameters.prm"
+    text = parameters.read_text(errors="replace") if parameters.is_file() else ""
+    match = re.search(r"^subsection Study$.*?^ *set Title *= *([^#\n]*?) *(?:#.*)?$.*?^end$", text,
+                      re.MULTILINE | re.DOTALL)
+    return match[1] if match and match[1] else (
+        folder.absolute().name.replace("_", " ").capitalize())
+
+
 def main():
     parser = argparse.ArgumentParser(description="Charts of a study, from its results.csv.")
     parser.add_argument("folder", type=Path, help="output folder of the study")
-    parser.add_argument("--title", help="default: the folder's name")
+    parser.add_argument("--title", help="default: the study's title, or the folder's name")
     options = parser.parse_args()
     try:
         study = Study(options.folder / "results.csv")
@@ -301,7 +308,7 @@ def main():
         sys.exit(f"chart.py: error: {error}")
 
     plt.rcParams.update({"font.size": 10, "svg.hashsalt": "isochor"})
-    name = options.title or options.folder.absolute().name.replace("_", " ").capitalize()
+    name = options.title or title_of(options.folder)
     written = []
     for probe in study.probes:
         for parameter in study.numeric_parameters():

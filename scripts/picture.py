@@ -2,6 +2,7 @@
 """A picture of deformed bodies, side by side, from VTU files of isochor. Needs no display.
 
   picture.py -o out.png [--field NAME] [--label TEXT]... FILE...
+  picture.py -o out.png --study FOLDER "Element = P1; Poisson ratio = 0.4999" ...
 
 Each body is drawn deformed, with its mesh, coloured by a field, together with the sharp edges of
 the body at rest in grey. All share one camera and one colour scale. VTK draws, matplotlib sets
@@ -30,6 +31,7 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRendere
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (provides the renderer)
 
 from body_surface import BadFile, Body
+from results_table import BadTable, Study, setting
 
 UNITS = {"displacement": "m", "von mises stress": "Pa", "pressure": "Pa", "j": ""}
 SUPERSAMPLING = 2
@@ -218,9 +220,22 @@ def compose(images, labels, colours, output):
     figure.savefig(output, facecolor="white")
 
 
+def states_of_study(folder, wanted):
+    """The last state of each run of a study, and a label that tells its settings."""
+    study = Study(folder / "results.csv")
+    if "folder" not in study.columns:
+        raise BadTable(f"{folder}/results.csv: no column named 'folder' tells where a run's files are")
+    rows = [study.find(text) for text in wanted]
+    labels = [", ".join(row[n] if n.startswith("Method/") else setting(row, n)
+                        for n in study.varied) for row in rows]
+    return [folder / row["folder"] / "solution.pvd" for row in rows], labels
+
+
 def main():
     parser = argparse.ArgumentParser(description="A picture of deformed bodies, side by side.")
-    parser.add_argument("files", nargs="+", metavar="FILE", help=".vtu, .pvtu, or .pvd (its last)")
+    parser.add_argument("files", nargs="+", metavar="FILE",
+                        help=".vtu, .pvtu, .pvd (its last state); with --study, settings of a run")
+    parser.add_argument("--study", type=Path, metavar="FOLDER", help="output folder of a study")
     parser.add_argument("-o", "--output", required=True, type=Path, help="the .png to write")
     parser.add_argument("--field", default="von Mises stress [Pa]",
                         help="colours: displacement, pressure, J, von Mises stress (default)")
@@ -232,9 +247,12 @@ def main():
     options = parser.parse_args()
     if options.label and len(options.label) != len(options.files):
         parser.error(f"{len(options.files)} files, {len(options.label)} labels")
-    labels = options.label or [Path(file).stem for file in options.files]
     try:
-        bodies = [Body(file) for file in options.files]
+        files, labels = options.files, [Path(file).stem for file in options.files]
+        if options.study:
+            files, labels = states_of_study(options.study, options.files)
+        labels = options.label or labels
+        bodies = [Body(file) for file in files]
         colours = Colours(bodies, options.field, options.limits)
         camera = Camera(bodies, options.view)
         aspect = camera.size[0] / camera.size[1]
@@ -243,7 +261,7 @@ def main():
         with virtual_display():
             images = [draw(body, options.field, colours, camera, pixels) for body in bodies]
         compose(images, labels, colours, options.output)
-    except (BadFile, NoDisplay, OSError) as error:
+    except (BadFile, BadTable, NoDisplay, OSError) as error:
         sys.exit(f"picture.py: error: {error}")
     print(options.output)
 

@@ -8,6 +8,8 @@ from collections import namedtuple
 FIRST_COST, LAST_COST, AFTER_PROBES = "cells", "peak memory MB", "volume ratio"
 NEEDED = [FIRST_COST, "unknowns", "seconds total", LAST_COST, AFTER_PROBES, "status", "role"]
 POISSON = "Scene/Poisson ratio"
+UNITS = {"Mesh size": "m", "Young's modulus": "Pa", "Density": "kg/m³", "Poisson ratio": ""}
+
 Probe = namedtuple("Probe", "column name unit error uncertainty")
 
 
@@ -77,6 +79,19 @@ class Study:
         several = [n for n in names if len({r[n] for r in self.runs}) > 1] or names[:1]
         return ", ".join(row[n] for n in several) or "run"
 
+    def find(self, wanted):
+        """The one run with the settings "Element = P1; Poisson ratio = 0.4999"."""
+        rows = self.runs
+        for assignment in filter(None, map(str.strip, wanted.split(";"))):
+            key, _, value = map(str.strip, assignment.partition("="))
+            names = [n for n in self.parameters if key in (n, short(n))]
+            if len(names) != 1:
+                raise BadTable(f"'{assignment}': the study varies {', '.join(self.parameters)}")
+            rows = [row for row in rows if row[names[0]] == value]
+        if len(rows) != 1:
+            raise BadTable(f"'{wanted}' are the settings of {len(rows)} runs, not of one")
+        return rows[0]
+
     def numeric_parameters(self):
         """Varied settings of the scene that are numbers."""
         return [name for name in self.varied if not name.startswith("Method/")
@@ -97,3 +112,9 @@ def groups(rows, key):
     for row in rows:
         found.setdefault(key(row), []).append(row)
     return found
+
+
+def setting(row, parameter):
+    name = "ν" if parameter == POISSON else short(parameter)
+    return f"{name} = {row[parameter]}" + (f" {UNITS[short(parameter)]}".rstrip()
+                                           if short(parameter) in UNITS else "")

@@ -108,6 +108,22 @@ class Picture(unittest.TestCase):
             '<DataSet timestep="1" file="linear.vtu"/></Collection></VTKFile>')
         self.assertEqual(len(Body(self.folder / "all.pvd").triangles), 12)
 
+    def test_runs_of_a_study_by_their_settings(self):
+        (self.folder / "study" / "run_002").mkdir(parents=True)
+        os.rename(self.folder / "linear.vtu", self.folder / "study" / "run_002" / "solution.vtu")
+        (self.folder / "study" / "run_002" / "solution.pvd").write_text(
+            '<VTKFile type="Collection"><Collection><DataSet file="solution.vtu"/></Collection>'
+            "</VTKFile>")
+        (self.folder / "study" / "results.csv").write_text(
+            "Method/Element,cells,unknowns,seconds total,peak memory MB,volume ratio,status,role,"
+            "folder\nP1,6,24,1,90,1,converged,run,run_001\nP1-P1,6,32,1,90,1,converged,run,run_002"
+            "\n")
+        result = self.run_script("--study", "study", "Element = P1-P1")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        result = self.run_script("--study", "study", "Element = P7")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("'Element = P7'", result.stderr)
+
     def test_wrong_input_is_one_line(self):
         (self.folder / "torn.vtu").write_text("<VTKFile")
         for arguments, words in ((["none.vtu"], "no such file"), (["torn.vtu"], "torn"),
