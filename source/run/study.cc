@@ -187,8 +187,10 @@ namespace isochor
                                     finished(plan.runs[index].reference),
                                     finished(plan.runs[index].check),
                                     plan.reference_values);
-            csv.add(
-                result_row(plan, plan.runs[index], results[index], errors[index], probe_columns));
+            ResultRow row
+                = result_row(plan, plan.runs[index], results[index], errors[index], probe_columns);
+            row.emplace_back("folder", plan.is_study() ? run_folder_name(index) : "."); // VTU files
+            csv.add(row);
           }
       }
 
