@@ -1,0 +1,76 @@
+#pragma once
+
+// Displacement, pressure, J and stress at points of a cell, for pictures and point values.
+
+#include <isochor/core/batch.h>
+#include <isochor/material/distortional_energy.h>
+#include <isochor/scene/scene.h>
+#include <isochor/space/discretisation.h>
+
+namespace isochor
+{
+  template <int dim>
+  struct PointFields
+  {
+    dealii::Tensor<1, dim> displacement; ///< m
+    /// Pa, positive in tension: the pressure unknown of a mixed element, kappa Phi(J) of a
+    /// displacement element.
+    double pressure = 0;
+    double J        = 0; ///< det F
+    /// Pa: sqrt(3/2 dev sigma : dev sigma) of the full three-dimensional Cauchy stress, sigma_33 of
+    /// plane strain included.
+    double von_mises = 0;
+  };
+
+  template <int dim>
+  class CellFields
+  {
+  public:
+    /// Shape functions at fixed points of the reference cell, in batches of eight.
+    class Points
+    {
+    public:
+      unsigned int size() const
+      {
+        return n_points;
+      }
+
+    private:
+      friend class CellFields;
+
+      struct XShape
+      {
+        Batch value;
+        Batch gradient[dim]; ///< d/d xi_k
+      };
+      struct PShape
+      {
+        Batch value;
+      };
+
+      unsigned int        n_points;
+      std::vector<XShape> x; ///< [batch * n_x + a]
+      std::vector<PShape> p; ///< [batch * n_p + j]
+    };
+
+    /// @p discretisation must outlive this. Throws std::logic_error for a displacement element at
+    /// nu = 0.5, which is refused before.
+    CellFields(const Discretisation<dim> &discretisation, const Material &material);
+
+    Points tabulate(const std::vector<dealii::Point<dim>> &reference_points) const;
+
+    /// Fields at the points of a cell of this rank. @p values: the state's local entries, ghosts
+    /// up to date (Vector::begin()). Where a field does not exist (log J of an inverted cell) it
+    /// is NaN. @p fields is resized to the number of points.
+    void evaluate(std::size_t                    cell,
+                  const Points                  &points,
+                  const double                  *values,
+                  std::vector<PointFields<dim>> &fields) const;
+
+  private:
+    const Discretisation<dim>                &discretisation;
+    std::unique_ptr<const DistortionalEnergy> energy;
+    VolumetricStrain                          volumetric_strain;
+    Moduli                                    moduli;
+  };
+} // namespace isochor
