@@ -47,6 +47,7 @@ namespace isochor
   {
     std::string                  boundary;
     std::vector<Expression<dim>> components;
+    std::string                  origin = {}; ///< the parameter and entry, for messages
   };
 
   /// Follower pressure in Pa of deformed area, multiplied by the load factor; positive pushes
@@ -56,6 +57,7 @@ namespace isochor
   {
     std::string     boundary;
     Expression<dim> value;
+    std::string     origin = {}; ///< the parameter and entry, for messages
   };
 
   enum class ProbeKind
@@ -74,11 +76,12 @@ namespace isochor
   struct ProbeRequest
   {
     std::string                       name;
-    ProbeKind                         kind = ProbeKind::volume;
-    std::string                       boundary; ///< empty: the whole body
-    std::optional<dealii::Point<dim>> point;    ///< reference position, for point_displacement
+    ProbeKind                         kind     = ProbeKind::volume;
+    std::string                       boundary = {}; ///< empty: the whole body
+    std::optional<dealii::Point<dim>> point    = {}; ///< reference position, for point_displacement
     /// 0..dim-1: that component; dim: the magnitude; none: all components, one column each.
-    std::optional<unsigned int> component;
+    std::optional<unsigned int> component = {};
+    std::string                 origin    = {}; ///< the parameter and entry, for messages
   };
 
   template <int dim>
@@ -87,7 +90,7 @@ namespace isochor
     MeshRequest                    mesh;
     Material                       material;
     std::vector<Support<dim>>      supports;
-    dealii::Tensor<1, dim>         gravity; ///< m/s^2
+    dealii::Tensor<1, dim>         gravity; ///< m/s^2, multiplied by the load factor
     std::vector<Traction<dim>>     tractions;
     std::vector<Pressure<dim>>     pressures;
     std::vector<ProbeRequest<dim>> probes;
@@ -102,4 +105,14 @@ namespace isochor
 
   /// Reads Scene/Dimension: 2 (plane strain) or 3.
   int dimension_of(dealii::ParameterHandler &prm);
+
+  /// Every boundary that the scene names, with the origin of the name for messages: supports,
+  /// tractions, pressures, probes. To be looked up once there is a mesh.
+  template <int dim>
+  std::vector<std::pair<std::string, std::string>> boundary_references(const Scene<dim> &scene);
+
+  /// Throws UserError for a traction or pressure on a boundary all of whose displacement
+  /// components are prescribed: it would have no effect.
+  template <int dim>
+  void check_loads_against_supports(const Scene<dim> &scene);
 } // namespace isochor
