@@ -112,8 +112,14 @@ target_include_directories(isochor_libraries SYSTEM INTERFACE
   ${GMSH_INCLUDE_DIR})
 target_compile_definitions(isochor_libraries INTERFACE
   ${DEAL_II_USER_DEFINITIONS} OMPI_SKIP_MPICXX $<$<CONFIG:Debug>:DEBUG>)
-# deal.II names two hundred libraries; only those in use are worth loading at each start.
-target_link_options(isochor_libraries INTERFACE -Wl,--as-needed)
+# deal.II's target names two hundred libraries, which take half a minute to link against. Our code
+# calls these few of them; the loader finds the rest through libdeal.ii itself.
+get_target_property(dealii_libraries ${dealii_target} INTERFACE_LINK_LIBRARIES)
+list(FILTER dealii_libraries INCLUDE REGEX
+  "/lib(tbb|trilinos_epetra|trilinos_teuchos(core|comm|parameterlist)|petsc[a-z_]*|boost_[a-z]+|mpi|z)\\.so")
+list(REMOVE_DUPLICATES dealii_libraries)
+target_link_options(isochor_libraries INTERFACE
+  -Wl,--as-needed -Wl,--unresolved-symbols=ignore-in-shared-libs)
 target_link_libraries(isochor_libraries INTERFACE
-  ${dealii_target} ${DMUMPS_LIBRARY} ${MUMPS_COMMON_LIBRARY} ${METIS_LIBRARY} ${UMFPACK_LIBRARY}
-  ${GMSH_LIBRARY} CLI11::CLI11)
+  ${dealii_library} ${dealii_libraries} ${DMUMPS_LIBRARY} ${MUMPS_COMMON_LIBRARY} ${METIS_LIBRARY}
+  ${UMFPACK_LIBRARY} ${GMSH_LIBRARY} CLI11::CLI11)

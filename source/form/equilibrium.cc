@@ -84,10 +84,13 @@ namespace isochor
 
     Vector external = discretisation_.make_vector();
     double value    = 0;
-    for (const auto &term : loads)
-      value += term->add(state, load, { &external, nullptr, nullptr }).value;
+    // A load's formula may fail where only one rank evaluates it.
+    collectively(discretisation_.communicator(), [&]() {
+      for (const auto &term : loads)
+        value += term->add(state, load, {&external, nullptr, nullptr}).value;
+    });
     residual                   = 0.;
-    const Evaluation internals = internal->add(state, load, { &residual, nullptr, nullptr });
+    const Evaluation internals = internal->add(state, load, {&residual, nullptr, nullptr});
     value += internals.value;
 
     double acting = 0, reacting = 0, largest = 0;
@@ -109,10 +112,10 @@ namespace isochor
       }
     prescribed_.set_zero(residual);
 
-    const auto                  parts        = squares(discretisation_, residual);
-    const MPI_Comm              communicator = discretisation_.communicator();
-    const std::array<double, 5> mine{ { parts[0], parts[1], acting, reacting, value } };
-    std::array<double, 5>       all;
+    const auto                parts        = squares(discretisation_, residual);
+    const MPI_Comm            communicator = discretisation_.communicator();
+    const std::vector<double> mine{parts[0], parts[1], acting, reacting, value};
+    std::vector<double>       all(mine.size());
     dealii::Utilities::MPI::sum(mine, communicator, all);
     largest = dealii::Utilities::MPI::max(largest, communicator);
 
@@ -133,9 +136,9 @@ namespace isochor
   void Equilibrium<dim>::tangent(const Vector &state, const double load, SparseMatrix &matrix) const
   {
     std::fill(matrix.values().begin(), matrix.values().end(), 0.);
-    internal->add(state, load, { nullptr, &matrix, &offsets });
+    internal->add(state, load, {nullptr, &matrix, &offsets});
     for (const auto &term : loads)
-      term->add(state, load, { nullptr, &matrix, &offsets });
+      term->add(state, load, {nullptr, &matrix, &offsets});
   }
 
   template class Equilibrium<2>;
