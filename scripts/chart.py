@@ -22,7 +22,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
-from matplotlib.transforms import ScaledTranslation
+from matplotlib.transforms import Bbox, ScaledTranslation
 
 from results_table import (POISSON, UNITS, BadTable, Study, failed, groups, number, setting,
                            short)
@@ -60,7 +60,8 @@ def plain(value, _position=None):
 
 
 def log_axis(axis, formatter):
-    axis.set_major_locator(LogLocator(numticks=12))
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 50 * low else (1,), numticks=12))
     axis.set_major_formatter(FuncFormatter(formatter))
     axis.set_minor_formatter(NullFormatter())
 
@@ -216,14 +217,13 @@ def chart_against_parameter(study, folder, title, probe, parameter, what):
         for method, pairs in groups(figures(rows), lambda pair: study.method(pair[0])).items():
             points = sorted((axis.position(row), value) for row, value in pairs)
             axes.plot(*zip(*points), linewidth=1.8, markersize=6, **style(study, method))
-    if what == "error":
-        log_axis(first.yaxis, percent)
-        label = f"relative error of {probe.name}"
-    else:
-        label = probe.name + (f" [{probe.unit}]" if probe.unit else "")
+    label = (f"relative error of {probe.name}" if what == "error"
+             else probe.name + (f" [{probe.unit}]" if probe.unit else ""))
     finish(figure, study, panels, axis.label, label, axis.position,
            lambda axes, rows: draw_uncertainty(axes, rows, probe, axis.position)
            if what == "error" else draw_reference(axes, study, rows, probe, axis))
+    if what == "error":
+        log_axis(first.yaxis, percent)
     axis.apply(first)
     return save(figure, folder, f"{slug(probe.name)}_{what}_against_{slug(short(parameter))}")
 
@@ -245,12 +245,15 @@ def finish(figure, study, panels, x_label, y_label, position, draw_extra):
 
 
 def draw_reference(axes, study, rows, probe, axis):
-    """The reference runs of the same scene as ROWS, which may be finer."""
+    """The reference runs of the same scene as ROWS, which may be finer.
+
+    A run that only checks the reference has no error of its own."""
     same = [n for n in study.varied if n not in RESOLUTION | {axis.parameter}
             and not n.startswith("Method/")]
     points = sorted((axis.position(row), number(row[probe.column])) for row in study.reference
                     if number(row[axis.parameter]) is not None
                     and number(row[probe.column]) is not None and not failed(row)
+                    and (not probe.error or number(row[probe.error]) is not None)
                     and all(row[n] == rows[0][n] for n in same))
     if not points:
         return []
@@ -268,6 +271,7 @@ def chart_against_cost(study, folder, title, probe, column, label, name):
         return []
     figure, panels = new_figure(title, split_in_panels(study, RESOLUTION))
     first = panels[0][0]
+    ends = {axes: [] for axes, _ in panels}
     for axes, rows in panels:
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -276,15 +280,37 @@ def chart_against_cost(study, folder, title, probe, column, label, name):
                             if number(row[column]))
             if points:
                 axes.plot(*zip(*points), linewidth=1.4, markersize=7, **style(study, method))
-                axes.annotate(method, points[-1], xytext=(6, 5), textcoords="offset points",
-                              fontsize=8, color="#333333")
-    log_axis(first.yaxis, percent)
+                ends[axes].append((points[-1], method))
+    first.margins(x=0.15)
     log_axis(first.xaxis, plain)
-    first.margins(x=0.12)
     finish(figure, study, panels, label, f"relative error of {probe.name}",
            lambda row: number(row[column]) or None,
            lambda axes, rows: draw_uncertainty(axes, rows, probe))
+    log_axis(first.yaxis, percent)
+    place_labels(figure, ends)
     return save(figure, folder, f"{slug(probe.name)}_error_against_{name}")
+
+
+def place_labels(figure, ends):
+    """The method's name beside its last point, on the first side with room, if there is any."""
+    sides = [((6, 4), "left", "bottom"), ((6, -4), "left", "top"), ((-6, 4), "right", "bottom"),
+             ((-6, -4), "right", "top"), ((0, 7), "center", "bottom"), ((0, -7), "center", "top")]
+    figure.canvas.draw()
+    for axes, labels in ends.items():
+        radius = 5 * figure.dpi / 72
+        taken = [Bbox.from_extents(*(axes.transData.transform(point) - radius),
+                                   *(axes.transData.transform(point) + radius))
+                 for point, _ in labels]
+        for point, method in labels:
+            for offset, horizontal, vertical in sides:
+                text = axes.annotate(method, point, xytext=offset, textcoords="offset points",
+                                     ha=horizontal, va=vertical, fontsize=8, color="#333333")
+                box = text.get_window_extent()
+                inside = axes.bbox.x0 <= box.x0 and box.x1 <= axes.bbox.x1
+                if inside and not any(box.overlaps(other) for other in taken):
+                    taken.append(box)
+                    break
+                text.remove()
 
 
 def title_of(folder):

@@ -227,7 +227,7 @@ def states_of_study(folder, wanted):
         raise BadTable(f"{folder}/results.csv: no column named 'folder' tells where a run's files are")
     rows = [study.find(text) for text in wanted]
     labels = [", ".join(row[n] if n.startswith("Method/") else setting(row, n)
-                        for n in study.varied) for row in rows]
+                        for n in sorted(study.varied)) for row in rows]
     return [folder / row["folder"] / "solution.pvd" for row in rows], labels
 
 
