@@ -10,7 +10,7 @@ namespace isochor
                               const Energy               energy,
                               const VolumetricStrain     volumetric_strain,
                               const Moduli              &moduli)
-    : data{ discretisation, make_distortional_energy(energy, moduli.mu), volumetric_strain, moduli }
+    : data{discretisation, make_distortional_energy(energy, moduli.mu), volumetric_strain, moduli}
   {
     const Element &element = discretisation.element;
     if (!element.is_mixed() && !std::isfinite(moduli.kappa))

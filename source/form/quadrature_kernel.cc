@@ -294,10 +294,10 @@ namespace isochor
       std::unique_ptr<const typename Elasticity<dim>::Kernel> (*make)(const Discretisation<dim> &);
     };
     // Compiled pairs of degrees; -1: no pressure.
-    static constexpr Row rows[] = { { 2, -1, &make<dim, 2, -1> },
-                                    { 3, -1, &make<dim, 3, -1> },
-                                    { 2, 1, &make<dim, 2, 1> },
-                                    { 3, 2, &make<dim, 3, 2> } };
+    static constexpr Row rows[] = {{2, -1, &make<dim, 2, -1>},
+                                   {3, -1, &make<dim, 3, -1>},
+                                   {2, 1, &make<dim, 2, 1>},
+                                   {3, 2, &make<dim, 3, 2>}};
 
     const Element &element  = discretisation.element;
     const int      x_degree = element.displacement_degree;

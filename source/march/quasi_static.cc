@@ -59,9 +59,6 @@ namespace isochor
       problem.correction = [&, load](const Vector &x, const Vector &residual, Vector &step) {
         return tangent_solver.correction(x, load, residual, step);
       };
-      problem.simplified_correction = [&](const Vector &residual, Vector &step) {
-        return tangent_solver.simplified_correction(residual, step);
-      };
       problem.accepted = [&](unsigned int, const NewtonProblem::Size &, double) {
         return callbacks.interrupted();
       };
@@ -132,7 +129,7 @@ namespace isochor
             report.size = size;
             ++report.load_steps;
             step = std::min(2. * step, largest_step);
-            callbacks.converged({ report.load_steps, load, newton_report, size, clock.total() },
+            callbacks.converged({report.load_steps, load, newton_report, size, clock.total()},
                                 state);
           }
         else if (newton_report.outcome == NewtonOutcome::interrupted)

@@ -36,29 +36,24 @@ namespace isochor
       report.reason  = why;
       return report;
     }
-
-    /// Norms of the displacement and pressure parts cannot be compared, but a step and its
-    /// simplified successor can: the ratio of Euclidean norms is what the natural test needs.
-    bool natural_test(const NewtonProblem &problem,
-                      const Vector        &residual,
-                      const double         step_norm,
-                      const double         length,
-                      Vector              &simplified)
-    {
-      if (!problem.simplified_correction(residual, simplified).succeeded)
-        return false;
-      return simplified.l2_norm() <= (1. - length / 4.) * step_norm;
-    }
   } // namespace
 
   NewtonReport newton(const NewtonProblem &problem, const NewtonOptions &options, Vector &x)
   {
     NewtonReport report;
-    Vector       residual(x.get_partitioner()), step(x.get_partitioner()), trial(x), scratch(x);
+    Vector       residual(x.get_partitioner()), trial_residual(residual), step(residual);
+    Vector       trial(x);
 
     NewtonProblem::Size size = problem.residual(x, residual);
     if (!size.admissible || !std::isfinite(size.merit))
       return finished(report, NewtonOutcome::inverted, "the initial state has inverted cells");
+
+    // The iterate of the smallest residual so far, and how many iterations ago that was.
+    Vector              best(x), best_residual(residual);
+    NewtonProblem::Size best_size  = size;
+    unsigned int        since_best = 0;
+    // Only steps that reduce the residual are taken.
+    bool strict = false;
 
     while (true)
       {
@@ -78,52 +73,57 @@ namespace isochor
         ++report.iterations;
         if (!correction.succeeded)
           return finished(report, NewtonOutcome::linear, correction.failure);
-        const double step_norm = step.l2_norm();
 
-        // Backtracking. A step is good when it stays admissible and either the residual falls or,
-        // since stiff modes make the residual rise on the way to a good state (a bending beam
-        // stretches first), the next simplified step is shorter (natural monotonicity test,
-        // Deuflhard 2004, section 3.3). While prescribed values move, residuals of different
-        // boundary positions cannot be compared and admissibility has to do.
-        double length = 1.;
-        bool   good = false, was_admissible = false;
-        for (unsigned int halving = 0; halving <= options.max_halvings; ++halving)
+        double              length         = 1.;
+        bool                was_admissible = false;
+        NewtonProblem::Size trial_size;
+        unsigned int        halving = 0;
+        for (; halving <= options.max_halvings; ++halving, length *= 0.5)
           {
             trial = x;
             trial.add(length, step);
-            const auto trial_size = problem.residual(trial, scratch);
+            trial_size            = problem.residual(trial, trial_residual);
             const bool admissible = trial_size.admissible && std::isfinite(trial_size.merit);
             was_admissible |= admissible;
-            if (admissible)
-              {
-                good = size.gap > 0. || trial_size.merit <= trial_size.target
-                       || trial_size.merit < (1. - 1e-4 * length) * size.merit;
-                if (!good)
-                  {
-                    Vector simplified(x.get_partitioner());
-                    good = natural_test(problem, scratch, step_norm, length, simplified);
-                  }
-              }
-            if (good)
-              {
-                x.swap(trial);
-                residual.swap(scratch);
-                size = trial_size;
-                break;
-              }
-            length *= 0.5;
-            ++report.halvings;
+            const bool reduced = trial_size.merit <= trial_size.target
+                                 || trial_size.merit < (1. - 1e-4 * length) * size.merit;
+            if (admissible && (reduced || !strict || size.gap > 0.))
+              break;
           }
-        if (!good)
+        report.halvings += halving;
+        if (halving > options.max_halvings)
           return was_admissible
                      ? finished(report,
                                 NewtonOutcome::stalled,
-                                "the line search found no step that improves the residual")
+                                "the line search found no step that reduces the residual")
                      : finished(report,
                                 NewtonOutcome::inverted,
                                 "every step of the line search inverts a cell");
+
+        // While prescribed values move, residuals of different boundary positions do not compare.
+        const bool comparable = size.gap == 0.;
+        x.swap(trial);
+        residual.swap(trial_residual);
+        size = trial_size;
         if (problem.accepted(report.iterations, size, length))
           return finished(report, NewtonOutcome::interrupted, "interrupted");
+
+        if (!comparable || size.merit < best_size.merit)
+          {
+            best          = x;
+            best_residual = residual;
+            best_size     = size;
+            since_best    = 0;
+            strict        = false;
+          }
+        else if (++since_best == options.patience)
+          {
+            x          = best;
+            residual   = best_residual;
+            size       = best_size;
+            since_best = 0;
+            strict     = true;
+          }
       }
   }
 } // namespace isochor

@@ -56,17 +56,8 @@ namespace isochor
         counts.pivot_excess = static_cast<long long>(*factorisation.negative_pivots)
                               - static_cast<long long>(equilibrium.discretisation().n_pressures);
       if (!factorisation.succeeded)
-        return { false, factorisation.failure };
+        return {false, factorisation.failure};
     }
-    return solve(rhs, step);
-  }
-
-  template <int dim>
-  NewtonProblem::Correction TangentSolver<dim>::simplified_correction(const Vector &residual,
-                                                                      Vector       &step)
-  {
-    Vector rhs(residual);
-    rhs *= -1.;
     return solve(rhs, step);
   }
 
@@ -85,9 +76,9 @@ namespace isochor
         why << "the linear solve left a relative residual of " << outcome.relative_residual;
         if (counts.null_pivots > 0)
           why << "; the tangent is singular (" << counts.null_pivots << " null pivots)";
-        return { false, why.str() };
+        return {false, why.str()};
       }
-    return { true, "" };
+    return {true, ""};
   }
 
   template class TangentSolver<2>;

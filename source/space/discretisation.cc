@@ -192,7 +192,7 @@ namespace isochor
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())
           boundary_faces.push_back(
-              { cells.n_cells, face, cell->face(face)->boundary_id(), cell->is_locally_owned() });
+              {cells.n_cells, face, cell->face(face)->boundary_id(), cell->is_locally_owned()});
       add_geometry(cells, cell);
       ++cells.n_cells;
     };

@@ -16,7 +16,7 @@ namespace isochor
     dealii::Tensor<1, dim> normal_of(const std::array<dealii::Tensor<1, dim>, dim - 1> &tangents)
     {
       if constexpr (dim == 2)
-        return dealii::Tensor<1, 2>({ tangents[0][1], -tangents[0][0] });
+        return dealii::Tensor<1, 2>({tangents[0][1], -tangents[0][0]});
       else
         return dealii::cross_product_3d(tangents[0], tangents[1]);
     }

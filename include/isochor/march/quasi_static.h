@@ -33,9 +33,9 @@ namespace isochor
     interrupted
   };
   inline constexpr auto run_status_names
-      = name_table<RunStatus>({ { RunStatus::converged, "converged" },
-                                { RunStatus::not_converged, "not converged" },
-                                { RunStatus::interrupted, "interrupted" } });
+      = name_table<RunStatus>({{RunStatus::converged, "converged"},
+                               {RunStatus::not_converged, "not converged"},
+                               {RunStatus::interrupted, "interrupted"}});
 
   struct MarchReport
   {

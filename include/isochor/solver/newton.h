@@ -1,6 +1,12 @@
 #pragma once
 
 // Newton's method with backtracking. It knows no physics: it gets callbacks and returns a report.
+//
+// Every step is shortened until it is admissible (no inverted cell, no NaN). Stiff modes make the
+// residual rise on the way to a good state: a beam that bends stretches first, and insisting on
+// descent doubles the iterations. So the search is a watchdog (Chamberlain, Powell, Lemarechal and
+// Pedersen 1982): full steps may raise the residual, but when a few have passed without a
+// new smallest one, the iteration goes back to that and backtracks until the residual falls.
 
 #include <isochor/core/names.h>
 #include <isochor/core/types.h>
@@ -19,6 +25,8 @@ namespace isochor
     double       tolerance      = 1e-8; ///< of NewtonProblem::Size, relative
     unsigned int max_iterations = 25;
     unsigned int max_halvings   = 8; ///< of one step
+    /// Iterations that may pass without a smaller residual before the search turns strict.
+    unsigned int patience = 5;
 
     static void declare(dealii::ParameterHandler &prm);
     void        parse(dealii::ParameterHandler &prm);
@@ -48,9 +56,6 @@ namespace isochor
 
     /// Linearise at @p x and solve for the Newton step, prescribed values included.
     std::function<Correction(const Vector &x, const Vector &residual, Vector &step)> correction;
-
-    /// Solve for the step that @p residual gives with the last linearisation (no new factors).
-    std::function<Correction(const Vector &residual, Vector &step)> simplified_correction;
 
     /// Called after every accepted iterate; true asks to stop (an interrupt).
     std::function<bool(unsigned int iteration, const Size &size, double step_length)> accepted;

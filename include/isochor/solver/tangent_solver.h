@@ -35,9 +35,6 @@ namespace isochor
     NewtonProblem::Correction
     correction(const Vector &state, double load, const Vector &residual, Vector &step);
 
-    /// The same with the last factors and prescribed unknowns held. Collective.
-    NewtonProblem::Correction simplified_correction(const Vector &residual, Vector &step);
-
     const LinearStatistics &statistics() const
     {
       return counts;
