@@ -22,10 +22,14 @@ namespace isochor
   {
     std::vector<dealii::Point<dim>>    vertices;
     std::vector<dealii::CellData<dim>> cells; ///< simplices, positively oriented
-    dealii::SubCellData      boundary; ///< named boundary faces; boundary_id = index in names
-    std::vector<std::string> names;    ///< boundary names
+    /// Every face of the body's surface; boundary_id = index in names, or unnamed_boundary.
+    dealii::SubCellData      boundary;
+    std::vector<std::string> names; ///< boundary names
     MeshQuality              quality;
   };
+
+  /// Boundary id of faces that no name was given to.
+  inline constexpr dealii::types::boundary_id unnamed_boundary = 9999;
 
   /// Read or generate, check (only simplices, first order, none inverted or degenerate, one
   /// connected body, no unused vertices) and measure. Serial. Throws UserError.
