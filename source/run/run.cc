@@ -49,7 +49,10 @@ namespace isochor
             *result.oscillation,
             "): trust the displacements of ",
             element.name,
-            ", not its pressures; choose P2-P1 for pressures");
+            ", not its pressures",
+            element.displacement_degree > *element.pressure_degree
+                ? "; refine the mesh"
+                : "; choose P2-P1 for pressures");
       return warnings;
     }
 
@@ -65,12 +68,12 @@ namespace isochor
 
       void add(const LoadStep &step, const std::vector<double> &values)
       {
-        ResultRow row = { { "step", std::to_string(step.number) },
-                          { "load factor", csv_number(step.load) },
-                          { "newton iterations", std::to_string(step.newton.iterations) },
-                          { "residual", csv_number(step.newton.merit) },
-                          { "min J", csv_number(step.size.min_jacobian) },
-                          { "seconds", csv_number(step.seconds) } };
+        ResultRow row = {{"step", std::to_string(step.number)},
+                         {"load factor", csv_number(step.load)},
+                         {"newton iterations", std::to_string(step.newton.iterations)},
+                         {"residual", csv_number(step.newton.merit)},
+                         {"min J", csv_number(step.size.min_jacobian)},
+                         {"seconds", csv_number(step.seconds)}};
         for (std::size_t k = 0; k < columns.size(); ++k)
           row.emplace_back(columns[k].title(), csv_number(values[k]));
         csv.add(row);

@@ -140,6 +140,17 @@ namespace isochor
             if (interrupted_at)
               break;
           }
+        // In the order of the file, now that no reference has to come first.
+        if (plan.is_study() && !interrupted_at)
+          {
+            const fs::path file = folder / "results.csv", ordered = folder / "results.csv.part";
+            {
+              ResultsCsv csv_in_order(communicator, ordered);
+              for (std::size_t index = 0; index < plan.runs.size(); ++index)
+                csv_in_order.add(row(index));
+            }
+            on_root_collectively(communicator, [&]() { fs::rename(ordered, file); });
+          }
         if (on_root)
           report();
         return code;
@@ -148,11 +159,11 @@ namespace isochor
     private:
       RunResult run_one(const std::size_t index)
       {
-        RunSettings settings{ communicator,
-                              plan.is_study() ? folder / run_folder_name(index) : folder,
-                              VtuOutput::every_step,
-                              invocation.check_only,
-                              talks && !plan.is_study() };
+        RunSettings settings{communicator,
+                             plan.is_study() ? folder / run_folder_name(index) : folder,
+                             VtuOutput::every_step,
+                             invocation.check_only,
+                             talks && !plan.is_study()};
         on_root_collectively(communicator, [&]() { fs::create_directories(settings.folder); });
         try
           {
@@ -187,11 +198,16 @@ namespace isochor
                                     finished(plan.runs[index].reference),
                                     finished(plan.runs[index].check),
                                     plan.reference_values);
-            ResultRow row
-                = result_row(plan, plan.runs[index], results[index], errors[index], probe_columns);
-            row.emplace_back("folder", plan.is_study() ? run_folder_name(index) : "."); // VTU files
-            csv.add(row);
+            csv.add(row(index));
           }
+      }
+
+      ResultRow row(const std::size_t index) const
+      {
+        ResultRow row
+            = result_row(plan, plan.runs[index], results[index], errors[index], probe_columns);
+        row.emplace_back("folder", plan.is_study() ? run_folder_name(index) : "."); // VTU files
+        return row;
       }
 
       void report() const
@@ -239,7 +255,7 @@ namespace isochor
       for (const PlannedRun &planned : plan.runs)
         {
           const RunResult result = run_planned(
-              invocation, planned.assignments, { communicator, {}, VtuOutput::none, true, false });
+              invocation, planned.assignments, {communicator, {}, VtuOutput::none, true, false});
           if (on_root)
             std::cout << "checked" << (planned.assignments.empty() ? "" : ": ")
                       << describe(planned.assignments) << "; " << result.cells << " cells, "
