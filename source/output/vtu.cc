@@ -23,10 +23,10 @@ namespace isochor
       Flags flags;
       flags.time                = load;
       flags.cycle               = number;
-      flags.print_date_and_time = false; // the same run gives the same files
+      flags.print_date_and_time = false; // a .vtu depends on the run alone
       flags.compression_level   = Flags::best_speed;
       flags.physical_units
-          = { { "displacement", "m" }, { "pressure", "Pa" }, { "von Mises stress [Pa]", "Pa" } };
+          = {{"displacement", "m"}, {"pressure", "Pa"}, {"von Mises stress [Pa]", "Pa"}};
       this->set_flags(flags);
       std::ostringstream text;
       this->write_vtu(text);
@@ -47,7 +47,7 @@ namespace isochor
     std::vector<std::string> get_dataset_names() const override
     {
       std::vector<std::string> names(dim, "displacement");
-      names.insert(names.end(), { "pressure", "J", "von Mises stress [Pa]" });
+      names.insert(names.end(), {"pressure", "J", "von Mises stress [Pa]"});
       return names;
     }
     std::vector<std::tuple<unsigned int,
@@ -56,10 +56,10 @@ namespace isochor
                            dealii::DataComponentInterpretation::DataComponentInterpretation>>
     get_nonscalar_data_ranges() const override
     {
-      return { { 0,
-                 dim - 1,
-                 "displacement",
-                 dealii::DataComponentInterpretation::component_is_part_of_vector } };
+      return {{0,
+               dim - 1,
+               "displacement",
+               dealii::DataComponentInterpretation::component_is_part_of_vector}};
     }
   };
 
@@ -71,6 +71,8 @@ namespace isochor
     , fields(discretisation, material)
     , folder(std::move(folder))
     , writer(std::make_unique<Writer>())
+    , n_cells(dealii::Utilities::MPI::all_gather(discretisation.communicator(),
+                                                 discretisation.cells.n_owned))
   {
     // deal.II orders the edges of a simplex as VTK does. Cubics are shown as quadratics.
     const unsigned int         degree = std::min(2u, discretisation.x_shape.degree());
@@ -134,15 +136,20 @@ namespace isochor
 
     const std::string name  = "solution_" + dealii::Utilities::int_to_string(number, 4);
     const auto        piece = [&](const unsigned int r) {
+      if (n_ranks == 1)
+        return name + ".vtu";
       const unsigned int n_digits = dealii::Utilities::needed_digits(n_ranks - 1);
-      return n_ranks == 1 ? name + ".vtu"
-                                 : name + "." + dealii::Utilities::int_to_string(r, n_digits) + ".vtu";
+      return name + "." + dealii::Utilities::int_to_string(r, n_digits) + ".vtu";
     };
 
     state.update_ghost_values();
     collectively(communicator, [&]() {
-      fill_patches(state);
-      write_whole_file(folder / piece(rank), writer->vtu(load, number));
+      // VTK complains about the piece that deal.II writes for a rank without cells.
+      if (n_cells[rank] > 0)
+        {
+          fill_patches(state);
+          write_whole_file(folder / piece(rank), writer->vtu(load, number));
+        }
     });
 
     // A record follows the files that it names.
@@ -152,7 +159,8 @@ namespace isochor
         {
           std::vector<std::string> pieces;
           for (unsigned int r = 0; r < n_ranks; ++r)
-            pieces.push_back(piece(r));
+            if (n_cells[r] > 0)
+              pieces.push_back(piece(r));
           write_whole_file(folder / written.back().second, writer->pvtu(pieces));
         }
       std::ostringstream pvd;

@@ -16,18 +16,18 @@ namespace isochor
   {
   public:
     /// Files go to @p folder, which exists; nothing is written yet. @p discretisation must outlive
-    /// this.
+    /// this. Collective.
     VtuSeries(const Discretisation<dim> &discretisation,
               const Material            &material,
               std::filesystem::path      folder);
     ~VtuSeries();
 
-    /// Write solution_0003.vtu for @p number 3 (on several ranks solution_0003.0.vtu, ... and
-    /// solution_0003.pvtu that joins them), then solution.pvd, which lists the files of all calls
-    /// so far with their @p load factors. Each file is whole at any moment. Cells are at their
-    /// reference positions; they are linear for displacements of degree 1, else quadratic. Point
-    /// data, in single precision and by cell, so that jumps between cells show:
-    /// "displacement" (m, three components), "pressure" (Pa, positive in tension), "J",
+    /// Write solution_0003.vtu for @p number 3 (on several ranks one solution_0003.0.vtu, ... for
+    /// each that has cells, and solution_0003.pvtu that joins them), then solution.pvd, which
+    /// lists the files of all calls so far with their @p load factors. Each file is whole at any
+    /// moment. Cells are at their reference positions; they are linear for displacements of degree
+    /// 1, else quadratic. Point data, in single precision and by cell, so that jumps between cells
+    /// show: "displacement" (m, three components), "pressure" (Pa, positive in tension), "J",
     /// "von Mises stress [Pa]". Updates the ghosts of @p state. Throws UserError naming the file
     /// that cannot be written. Collective.
     void write(const Vector &state, double load, unsigned int number);
@@ -45,6 +45,7 @@ namespace isochor
     typename CellFields<dim>::Points            points;
     const std::filesystem::path                 folder;
     std::unique_ptr<Writer>                     writer;
+    std::vector<unsigned int>                   n_cells; ///< of each rank
     std::vector<std::pair<double, std::string>> written; ///< load factor, file
   };
 } // namespace isochor
