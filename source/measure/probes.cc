@@ -11,7 +11,7 @@ namespace isochor
 {
   namespace
   {
-    constexpr const char *component_names[] = { "x", "y", "z" };
+    constexpr const char *component_names[] = {"x", "y", "z"};
 
     template <int dim>
     dealii::Tensor<1, dim> sum_over_ranks(const dealii::Tensor<1, dim> &mine, MPI_Comm communicator)
@@ -32,9 +32,9 @@ namespace isochor
     const CellTables<dim> &cells = discretisation.cells;
     for (const auto &request : requests)
       {
-        Probe probe{ request, {}, {}, {} };
+        Probe probe{request, {}, {}, {}};
         if (!request.boundary.empty())
-          probe.boundary = boundary_id(request.boundary, "Scene/Probes: '" + request.name + "'");
+          probe.boundary = boundary_id(request.boundary, request.origin);
 
         if (probe.boundary)
           {
@@ -66,16 +66,16 @@ namespace isochor
     std::string unit = "m";
     if (request.kind == ProbeKind::volume || request.kind == ProbeKind::cavity_volume)
       {
-        columns_.push_back({ request.name, dim == 2 ? "m^2" : "m^3" });
+        columns_.push_back({request.name, dim == 2 ? "m^2" : "m^3"});
         return;
       }
     if (request.kind == ProbeKind::reaction)
       unit = dim == 2 ? "N/m" : "N";
     if (request.component)
-      columns_.push_back({ request.name, unit });
+      columns_.push_back({request.name, unit});
     else
       for (unsigned int c = 0; c < dim; ++c)
-        columns_.push_back({ request.name + " " + component_names[c], unit });
+        columns_.push_back({request.name + " " + component_names[c], unit});
   }
 
   template <int dim>
@@ -107,13 +107,15 @@ namespace isochor
     const MPI_Comm communicator = discretisation.communicator();
     const double   best_of_all  = dealii::Utilities::MPI::max(best, communicator);
     if (best_of_all < -1e-6)
-      throw UserError("Scene/Probes: '" + probe.request.name + "': the point is not in the body");
+      throw UserError(probe.request.origin
+                      + ": the point is not in the body; allowed: a place (m) in the reference "
+                        "body or on its boundary");
     const unsigned int rank      = dealii::Utilities::MPI::this_mpi_process(communicator);
     const unsigned int answering = dealii::Utilities::MPI::min(
         best == best_of_all ? rank : dealii::Utilities::MPI::n_mpi_processes(communicator),
         communicator);
     if (rank == answering)
-      probe.place = { best_cell, best_xi };
+      probe.place = {best_cell, best_xi};
   }
 
   template <int dim>
@@ -137,8 +139,7 @@ namespace isochor
     total                       = sum_over_ranks(total, communicator);
     area                        = dealii::Utilities::MPI::sum(area, communicator);
     if (!(total.norm() <= 1e-8 * area))
-      throw UserError("Scene/Probes: '" + probe.request.name + "': boundary '"
-                      + probe.request.boundary
+      throw UserError(probe.request.origin + ": boundary '" + probe.request.boundary
                       + "' is not closed, so it encloses no volume; name the whole surface of "
                         "the cavity");
   }
@@ -150,8 +151,8 @@ namespace isochor
     if (!probe.request.component)
       return std::vector<double>(vector.begin_raw(), vector.end_raw());
     if (*probe.request.component == dim)
-      return { vector.norm() };
-    return { vector[*probe.request.component] };
+      return {vector.norm()};
+    return {vector[*probe.request.component]};
   }
 
   template <int dim>
@@ -264,10 +265,10 @@ namespace isochor
             append(extremes(probe, state));
             break;
           case ProbeKind::volume:
-            append({ deformed_volume(discretisation, state) });
+            append({deformed_volume(discretisation, state)});
             break;
           case ProbeKind::cavity_volume:
-            append({ cavity_volume(probe, state.begin()) });
+            append({cavity_volume(probe, state.begin())});
             break;
           case ProbeKind::reaction:
             {

@@ -123,6 +123,7 @@ namespace isochor
         result.status = "checked";
         return result;
       }
+    settings.before_output();
 
     TangentSolver<dim> tangent_solver(equilibrium, method.linear_solver, stopwatch);
     Vector             state = discretisation.make_vector(), scratch(state), reactions(state);

@@ -15,38 +15,60 @@ namespace isochor
     /// The marker by which a results folder is known as ours.
     constexpr const char *parameters_file = "parameters.prm";
 
-    /// Make @p folder; what an earlier run left there goes only with @p overwrite. Rank 0 only.
-    void prepare_folder(const fs::path &folder, const bool overwrite)
+    /// May results go there? What an earlier run left there goes only with @p overwrite. Rank 0 only.
+    void check_folder(const fs::path &folder, const bool overwrite)
     {
       std::error_code error;
-      if (fs::exists(folder, error))
-        {
-          if (!fs::is_directory(folder, error))
-            throw UserError("--output: '" + folder.string() + "' is not a folder");
-          if (!fs::is_empty(folder, error))
-            {
-              if (!overwrite)
-                throw UserError("--output: folder '" + folder.string()
-                                + "' exists and is not empty; choose another with --output, or "
-                                  "replace its results with --overwrite");
-              if (!fs::exists(folder / parameters_file, error))
-                throw UserError("--overwrite: folder '" + folder.string()
-                                + "' holds no results of Isochor; empty it yourself");
-              for (const auto &entry : fs::directory_iterator(folder))
-                {
-                  const std::string name = entry.path().filename().string();
-                  if (name.rfind("run_", 0) == 0 || name.rfind("solution", 0) == 0
-                      || name == "results.csv" || name == "steps.csv" || name == parameters_file)
-                    fs::remove_all(entry.path());
-                }
-            }
-        }
+      if (!fs::exists(folder, error))
+        return;
+      if (!fs::is_directory(folder, error))
+        throw UserError("--output: '" + folder.string() + "' is not a folder");
+      const bool is_empty = fs::is_empty(folder, error);
+      if (error)
+        throw UserError("--output: folder '" + folder.string()
+                        + "' cannot be read: " + error.message());
+      if (is_empty)
+        return;
+      if (!overwrite)
+        throw UserError("--output: folder '" + folder.string()
+                        + "' exists and is not empty; choose another with --output, or "
+                          "replace its results with --overwrite");
+      if (!fs::exists(folder / parameters_file, error))
+        throw UserError("--overwrite: folder '" + folder.string()
+                        + "' holds no results of Isochor; empty it yourself");
+    }
+
+    bool is_result(const std::string &name)
+    {
+      return name.starts_with("run_") || name.starts_with("solution") || name == "results.csv"
+             || name == "steps.csv" || name == parameters_file;
+    }
+
+    /// Make @p folder, without the results of an earlier run, and put the parameters there. Rank 0
+    /// only.
+    void prepare_folder(const fs::path &folder, const Invocation &invocation)
+    {
+      check_folder(folder, invocation.overwrite);
+      std::error_code error;
       fs::create_directories(folder, error);
       if (error)
         throw UserError("--output: folder '" + folder.string()
                         + "' cannot be made: " + error.message());
-      std::ofstream probe(folder / parameters_file);
-      if (!probe)
+      std::vector<fs::path> old_results;
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (is_result(entry.path().filename().string()))
+          old_results.push_back(entry.path());
+      for (const fs::path &path : old_results)
+        if (fs::remove_all(path, error); error)
+          throw UserError("--overwrite: '" + path.string()
+                          + "' cannot be removed: " + error.message());
+
+      dealii::ParameterHandler prm;
+      declare_parameters(prm);
+      read_parameter_file(prm, invocation.file, invocation.overrides);
+      std::ofstream out(folder / parameters_file);
+      prm.print_parameters(out, dealii::ParameterHandler::ShortPRM);
+      if (!out.flush())
         throw UserError("--output: folder '" + folder.string() + "' is not writable");
     }
 
@@ -119,8 +141,9 @@ namespace isochor
 
       ExitCode execute()
       {
-        ResultsCsv csv(communicator, folder / "results.csv");
-        ExitCode   code = ExitCode::converged;
+        if (plan.is_study())
+          prepare();
+        ExitCode code = ExitCode::converged;
         for (std::size_t done = 0; done < plan.order.size(); ++done)
           {
             const std::size_t index   = plan.order[done];
@@ -136,7 +159,7 @@ namespace isochor
             // A refused run knows no probes; the columns come from one that does.
             if (probe_columns.empty())
               probe_columns = results[index].probe_columns;
-            write_ready_rows(csv, done);
+            write_ready_rows(done);
             if (interrupted_at)
               break;
           }
@@ -157,14 +180,23 @@ namespace isochor
       }
 
     private:
+      void prepare()
+      {
+        on_root_collectively(communicator, [&]() { prepare_folder(folder, invocation); });
+        csv.emplace(communicator, folder / "results.csv");
+      }
+
       RunResult run_one(const std::size_t index)
       {
-        RunSettings settings{communicator,
-                             plan.is_study() ? folder / run_folder_name(index) : folder,
-                             VtuOutput::every_step,
-                             invocation.check_only,
-                             talks && !plan.is_study()};
-        on_root_collectively(communicator, [&]() { fs::create_directories(settings.folder); });
+        RunSettings settings{communicator, folder};
+        settings.show_steps = talks && !plan.is_study();
+        if (plan.is_study())
+          {
+            settings.folder = folder / run_folder_name(index);
+            on_root_collectively(communicator, [&]() { fs::create_directories(settings.folder); });
+          }
+        else // a mistake found before leaves no folder behind and removes no older results
+          settings.before_output = [&]() { prepare(); };
         try
           {
             return run_planned(invocation, plan.runs[index].assignments, settings);
@@ -187,7 +219,7 @@ namespace isochor
       }
 
       /// Rows are written once the columns are known, refused runs before that included.
-      void write_ready_rows(ResultsCsv &csv, const std::size_t done)
+      void write_ready_rows(const std::size_t done)
       {
         if (probe_columns.empty() && done + 1 < plan.order.size() && !interrupted_at)
           return;
@@ -198,7 +230,7 @@ namespace isochor
                                     finished(plan.runs[index].reference),
                                     finished(plan.runs[index].check),
                                     plan.reference_values);
-            csv.add(row(index));
+            csv->add(row(index));
           }
       }
 
@@ -241,6 +273,7 @@ namespace isochor
       MPI_Comm          communicator;
       const bool        on_root, talks;
 
+      std::optional<ResultsCsv>  csv;
       std::vector<RunResult>     results; ///< by index of the plan; status empty: not run
       std::vector<ProbeErrors>   errors;
       std::vector<ProbeColumn>   probe_columns;
@@ -255,7 +288,7 @@ namespace isochor
       for (const PlannedRun &planned : plan.runs)
         {
           const RunResult result = run_planned(
-              invocation, planned.assignments, {communicator, {}, VtuOutput::none, true, false});
+              invocation, planned.assignments, {communicator, {}, VtuOutput::none, true});
           if (on_root)
             std::cout << "checked" << (planned.assignments.empty() ? "" : ": ")
                       << describe(planned.assignments) << "; " << result.cells << " cells, "
@@ -293,23 +326,8 @@ namespace isochor
         check_all(invocation, plan, communicator);
         return ExitCode::converged;
       }
-    // A single run must not leave an empty folder behind when its input is bad, nor a study when
-    // its first run is.
-    if (!plan.is_study())
-      collectively(communicator, [&]() {
-        dealii::ParameterHandler prm;
-        read_run(prm, invocation, plan.runs.front().assignments);
-      });
-
     const fs::path folder = output;
-    on_root_collectively(communicator, [&]() {
-      prepare_folder(folder, invocation.overwrite);
-      dealii::ParameterHandler prm;
-      declare_parameters(prm);
-      read_parameter_file(prm, invocation.file, invocation.overrides);
-      std::ofstream out(folder / parameters_file);
-      prm.print_parameters(out, dealii::ParameterHandler::ShortPRM);
-    });
+    on_root_collectively(communicator, [&]() { check_folder(folder, invocation.overwrite); });
     return StudyRunner(invocation, plan, folder, communicator).execute();
   }
 } // namespace isochor

@@ -35,10 +35,10 @@ namespace isochor
   StudyOptions StudyOptions::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Study");
-    const StudyOptions options{ prm.get("Title"),
-                                prm.get("Reference"),
-                                prm.get("Reference check"),
-                                prm.get("Reference values") };
+    const StudyOptions options{prm.get("Title"),
+                               prm.get("Reference"),
+                               prm.get("Reference check"),
+                               prm.get("Reference values")};
     prm.leave_subsection();
     return options;
   }
@@ -99,7 +99,7 @@ namespace isochor
       for (std::size_t k = 0; k < plan.runs.size(); ++k)
         if (plan.runs[k].assignments == assignments)
           return k;
-      plan.runs.push_back({ assignments, false, {}, {} });
+      plan.runs.push_back({assignments, false, {}, {}});
       return plan.runs.size() - 1;
     }
   } // namespace
@@ -118,7 +118,7 @@ namespace isochor
 
     const auto reference = parse_pairs(options.reference, "Study/Reference");
     const auto check     = parse_pairs(options.reference_check, "Study/Reference check");
-    for (const auto &pairs : { reference, check })
+    for (const auto &pairs : {reference, check})
       for (const auto &pair : pairs)
         if (std::find(plan.keys.begin(), plan.keys.end(), pair.first) == plan.keys.end())
           plan.keys.push_back(pair.first);
@@ -137,13 +137,25 @@ namespace isochor
         for (const auto &[path, value] : assignments)
           all.push_back(path + "=" + value);
         // Checks the references' keys and values as well, in words.
-        for (const auto &pairs : { reference, check })
-          {
-            std::vector<std::string> with = all;
-            for (const auto &[path, value] : pairs)
+        for (const auto &[key, pairs] :
+             {std::pair("Reference", reference), std::pair("Reference check", check)})
+          for (const auto &[path, value] : pairs)
+            {
+              std::vector<std::string> with = all;
               with.push_back(path + "=" + value);
-            read_parameter_file(plain, file, with);
-          }
+              try
+                {
+                  read_parameter_file(plain, file, with);
+                }
+              catch (const UserError &error)
+                {
+                  const std::string text = error.what(), override = "--set ";
+                  if (!text.starts_with(override + "'" + path)) // the user wrote no --set
+                    throw;
+                  throw UserError(std::string("Study/") + key + ": "
+                                  + text.substr(override.size()));
+                }
+            }
         read_parameter_file(plain, file, all);
         for (const std::string &path : plan.keys)
           if (assignments.count(path) == 0)
@@ -153,7 +165,7 @@ namespace isochor
               assignments[path] = plain.get(path.substr(slash + 1));
               plain.leave_subsection();
             }
-        plan.runs.push_back({ assignments, true, {}, {} });
+        plan.runs.push_back({assignments, true, {}, {}});
       }
 
     const std::size_t n_grid = plan.runs.size();
@@ -186,7 +198,7 @@ namespace isochor
       done[k] = 1;
     };
     for (const PlannedRun &run : plan.runs)
-      for (const auto &needed : { run.reference, run.check })
+      for (const auto &needed : {run.reference, run.check})
         if (needed)
           schedule(*needed);
     for (std::size_t k = 0; k < plan.runs.size(); ++k)

@@ -91,9 +91,11 @@ namespace isochor
         {
           const std::string origin = "Scene/" + key + ": entry '" + text + "'";
           const auto        colon  = text.find(':');
+          if (std::ranges::count(text, '(') != std::ranges::count(text, ')'))
+            throw UserError(origin + ": '(' and ')' do not pair; allowed: " + form);
           if (colon == std::string::npos)
             throw UserError(origin + ": no ':' in it; allowed: " + form);
-          const Entry entry{ trim(text.substr(0, colon)), trim(text.substr(colon + 1)), origin };
+          const Entry entry{trim(text.substr(0, colon)), trim(text.substr(colon + 1)), origin};
           if (entry.name.empty())
             throw UserError(origin + ": nothing before the ':'; allowed: " + form);
           if (entry.value.empty())
@@ -168,7 +170,7 @@ namespace isochor
 
   int dimension_of(ParameterHandler &prm)
   {
-    return prm.get({ "Scene" }, "Dimension") == "2" ? 2 : 3;
+    return prm.get({"Scene"}, "Dimension") == "2" ? 2 : 3;
   }
 
   template <int dim>

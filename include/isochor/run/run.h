@@ -7,6 +7,7 @@
 #include <isochor/run/method.h>
 
 #include <filesystem>
+#include <functional>
 
 namespace isochor
 {
@@ -42,6 +43,8 @@ namespace isochor
     VtuOutput             vtu        = VtuOutput::every_step;
     bool                  check_only = false; ///< everything up to the first load step
     bool                  show_steps = false; ///< a line per load step on std::cout of rank 0
+    /// Called when the input has proved good, before anything is written. Collective.
+    std::function<void()> before_output = [] {};
   };
 
   /// Throws UserError on every rank for what the user must mend. Collective.
