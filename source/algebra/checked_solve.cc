@@ -1,5 +1,6 @@
 #include <isochor/algebra/direct_solver.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 
@@ -9,6 +10,24 @@ namespace isochor
 {
   namespace
   {
+    /// Vector::l2_norm() stops a Debug program at a NaN, which here is an answer.
+    double norm(const Vector &v)
+    {
+      double sum = 0;
+      for (std::size_t i = 0; i < v.locally_owned_size(); ++i)
+        sum += v.local_element(i) * v.local_element(i);
+      return std::sqrt(dealii::Utilities::MPI::sum(sum, v.get_mpi_communicator()));
+    }
+
+    double residual_norm(const SparseMatrix &matrix, const Vector &x, const Vector &b)
+    {
+      Vector residual(matrix.partitioner());
+      matrix.vmult(residual, x);
+      for (std::size_t i = 0; i < residual.locally_owned_size(); ++i)
+        residual.local_element(i) = b.local_element(i) - residual.local_element(i);
+      return norm(residual);
+    }
+
     /// What dealii::SolverFGMRES wants to see of the factors.
     struct Preconditioner
     {
@@ -17,16 +36,11 @@ namespace isochor
       void vmult(Vector &dst, const Vector &src) const
       {
         factors.solve(dst, src);
+        const double size = norm(dst);
+        if (!std::isfinite(size))
+          throw dealii::SolverControl::NoConvergence(0, size);
       }
     };
-
-    double residual_norm(const SparseMatrix &matrix, const Vector &x, const Vector &b)
-    {
-      Vector residual(matrix.partitioner());
-      matrix.vmult(residual, x);
-      residual.sadd(-1., 1., b);
-      return residual.l2_norm();
-    }
   } // namespace
 
   LinearSolve checked_solve(const SparseMatrix &matrix,
@@ -37,7 +51,7 @@ namespace isochor
                             const unsigned int  max_iterations)
   {
     LinearSolve  outcome;
-    const double norm_b = b.l2_norm();
+    const double norm_b = norm(b);
     if (norm_b == 0.)
       {
         x                 = 0.;
@@ -46,6 +60,9 @@ namespace isochor
       }
 
     // Every comparison is written such that a NaN fails.
+    outcome.relative_residual = norm_b;
+    if (!std::isfinite(norm_b))
+      return outcome;
     factors.solve(x, b);
     outcome.relative_residual = residual_norm(matrix, x, b) / norm_b;
     outcome.succeeded         = outcome.relative_residual <= tolerance;
@@ -59,7 +76,7 @@ namespace isochor
     dealii::SolverFGMRES<Vector> fgmres(control);
     try
       {
-        fgmres.solve(matrix, x, b, Preconditioner{ factors });
+        fgmres.solve(matrix, x, b, Preconditioner{factors});
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {

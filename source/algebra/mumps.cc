@@ -60,7 +60,7 @@ namespace isochor
     if (infog(mumps, 1) < 0)
       throw std::runtime_error("MUMPS cannot start: " + in_words(mumps));
 
-    for (const int stream : { 1, 2, 3 })
+    for (const int stream : {1, 2, 3})
       icntl(mumps, stream) = 0; // no output at all
     icntl(mumps, 4)   = 0;
     icntl(mumps, 7)   = 1;  // elimination order given in perm_in

@@ -147,7 +147,7 @@ namespace isochor
 
     Part                    mine  = local_part(matrix, node_of_row, n_nodes);
     const std::vector<Part> parts = dealii::Utilities::MPI::n_mpi_processes(communicator) == 1
-                                        ? std::vector<Part>{ std::move(mine) }
+                                        ? std::vector<Part>{std::move(mine)}
                                         : dealii::Utilities::MPI::gather(communicator, mine, 0);
 
     std::vector<int> place;

@@ -15,16 +15,16 @@ namespace isochor
     switch (convention)
       {
         case KappaConvention::lambda:
-          return { mu, lambda };
+          return {mu, lambda};
         case KappaConvention::bulk:
-          return { mu, bulk };
+          return {mu, bulk};
         case KappaConvention::consistent:
           switch (energy)
             {
               case Energy::neo_hookean:
-                return { mu, lambda };
+                return {mu, lambda};
               case Energy::bonet_wood:
-                return { mu, bulk };
+                return {mu, bulk};
             }
       }
     throw std::logic_error("moduli: an energy or a convention that is not known");

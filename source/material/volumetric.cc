@@ -10,12 +10,12 @@ namespace isochor
     switch (strain)
       {
         case VolumetricStrain::linear:
-          return { J - 1., batch(1.), batch(0.) };
+          return {J - 1., batch(1.), batch(0.)};
         case VolumetricStrain::logarithmic:
           {
             const Batch positive = positive_or_nan(J);
             const Batch inverse  = 1. / positive;
-            return { log(positive), inverse, -inverse * inverse };
+            return {log(positive), inverse, -inverse * inverse};
           }
       }
     throw std::logic_error("a volumetric strain that is not known");
