@@ -3,6 +3,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <clocale>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -42,6 +43,7 @@ namespace isochor
     public:
       Session()
         : threads(omp_get_max_threads ? omp_get_max_threads() : 0)
+        , locale(std::setlocale(LC_ALL, nullptr))
       {
         // No ~/.gmshrc: the mesh depends on the file and the size alone.
         gmsh::initialize(0, nullptr, false);
@@ -62,6 +64,7 @@ namespace isochor
           }
         if (omp_set_num_threads && threads > 0)
           omp_set_num_threads(threads);
+        std::setlocale(LC_ALL, locale.c_str()); // gmsh takes the user's
       }
       Session(const Session &)            = delete;
       Session &operator=(const Session &) = delete;
@@ -108,7 +111,8 @@ namespace isochor
         return "(nothing)";
       }
 
-      int threads;
+      int         threads;
+      std::string locale;
     };
 
     // A file that is removed at the end of its scope.
@@ -176,30 +180,30 @@ namespace isochor
       return false;
     }
 
-    void open_geometry(const Session &gmsh, const MeshRequest &request, const std::string &origin)
+    // Through a file of ours that includes the user's. A constant that exists before DefineConstant
+    // wins; given on gmsh's command line (-setnumber) it would outlive gmsh::finalize(). And a last
+    // line without a newline is lost if gmsh 4.8 opens the file itself, an endless loop if it
+    // merges it, but sound if it includes it.
+    void
+    open_geometry(const Session &session, const MeshRequest &request, const std::string &origin)
     {
-      if (!(request.size > 0))
-        {
-          gmsh.guarded(origin, [&] { ::gmsh::open(request.source); });
-          return;
-        }
-      if (has_size_parameter(request.source))
-        {
-          // A constant that exists before DefineConstant wins. Given on gmsh's command line
-          // (-setnumber) it would outlive gmsh::finalize().
-          if (request.source.find('"') != std::string::npos)
-            throw UserError(origin + ": gmsh takes no double quotes in file names");
-          std::ostringstream text;
-          text.precision(17);
-          text << "size = " << request.size << ";\nMerge \"" << request.source << "\";\n";
-          const TemporaryFile wrapper(text.str(), ".geo");
-          gmsh.guarded(origin, [&] { ::gmsh::open(wrapper.path); });
-          return;
-        }
-      gmsh.guarded(origin, [&] {
-        ::gmsh::open(request.source);
-        ::gmsh::option::setNumber("Mesh.MeshSizeMin", request.size);
-        ::gmsh::option::setNumber("Mesh.MeshSizeMax", request.size);
+      if (request.source.find('"') != std::string::npos)
+        throw UserError(origin + ": gmsh takes no double quotes in file names");
+      const bool         sized = request.size > 0;
+      const bool         named = sized && has_size_parameter(request.source);
+      std::ostringstream text;
+      text.precision(17);
+      if (named)
+        text << "size = " << request.size << ";\n";
+      text << "Include \"" << fs::absolute(request.source).string() << "\";\n";
+      const TemporaryFile wrapper(text.str(), ".geo");
+      session.guarded(origin, [&] {
+        gmsh::open(wrapper.path);
+        if (sized && !named)
+          {
+            gmsh::option::setNumber("Mesh.MeshSizeMin", request.size);
+            gmsh::option::setNumber("Mesh.MeshSizeMax", request.size);
+          }
       });
     }
 
