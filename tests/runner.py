@@ -5,7 +5,8 @@
   runner.py prm     ISOCHOR STEM.output FOLDER   digest of results.csv of a parameter file
   runner.py bad     ISOCHOR STEM.output FOLDER   exit code and message of a refused run
 
-The test runs in FOLDER, which is emptied first; "STEM.mpirun=N.output" runs on N ranks.
+The test runs in FOLDER, which is emptied first; "STEM.mpirun=N.output" runs on N ranks, others on
+as many as --ranks says.
 
 prm, bad: STEM.args, if there is one, holds arguments of isochor as a shell would split them;
   {here} is the folder of the test, {run} FOLDER. Without STEM.prm the arguments are all there
@@ -145,6 +146,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--numdiff", default="numdiff")
     parser.add_argument("--mpirun", default="mpirun")
+    parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("kind", choices=["program", "prm", "bad"])
     parser.add_argument("program")
     parser.add_argument("expected", type=Path)
@@ -160,7 +162,7 @@ def main():
     folder.mkdir(parents=True)
     test = {"program": test_program, "prm": test_prm, "bad": test_bad}[options.kind]
     try:
-        test(options, Path(match[1]), expected, folder, int(match[2] or 1))
+        test(options, Path(match[1]), expected, folder, int(match[2] or options.ranks))
     except Failure as failure:
         sys.exit(f"FAILED\n{failure}")
 
