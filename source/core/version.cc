@@ -15,6 +15,8 @@
 #  define COMPILER_NAME "GCC "
 #endif
 
+#include <sstream>
+
 namespace isochor
 {
   namespace
@@ -73,12 +75,13 @@ namespace isochor
 
   std::string version_text()
   {
-    return std::string("Isochor " ISOCHOR_VERSION ", " ISOCHOR_BUILD_TYPE " build")
-           + (ISOCHOR_NATIVE ? " for this machine's processor (-march=native)" : "")
-           + "\n  compiler: " COMPILER_NAME __VERSION__ "\n  deal.II:  " DEAL_II_PACKAGE_VERSION
-             " ("
-           + dealii_library()
-           + ")\n  MUMPS:    " MUMPS_VERSION "\n  gmsh:     " GMSH_API_VERSION "\n  BLAS:     "
-           + blas() + "\n";
+    std::ostringstream out;
+    out << "Isochor " << ISOCHOR_VERSION << ", " << ISOCHOR_BUILD_TYPE << " build"
+        << (ISOCHOR_NATIVE ? " for this machine's processor (-march=native)" : "")
+        << "\n  compiler: " << COMPILER_NAME << __VERSION__
+        << "\n  deal.II:  " << DEAL_II_PACKAGE_VERSION << " (" << dealii_library() << ")"
+        << "\n  MUMPS:    " << MUMPS_VERSION << "\n  gmsh:     " << GMSH_API_VERSION
+        << "\n  BLAS:     " << blas() << "\n";
+    return out.str();
   }
 } // namespace isochor

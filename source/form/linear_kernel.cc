@@ -32,7 +32,7 @@ namespace isochor
             gather(cells, values, first, n_filled, in);
             compute(data, in, target.tangent != nullptr, out);
 
-            evaluation.min_jacobian = std::min(evaluation.min_jacobian, isochor::min(out.J));
+            lower(evaluation.min_jacobian, isochor::min(out.J));
             for (unsigned int lane = 0; lane < n_filled && first + lane < cells.n_owned; ++lane)
               evaluation.value += out.value[lane];
 

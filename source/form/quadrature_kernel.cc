@@ -140,8 +140,7 @@ namespace isochor
                 for (int J = 0; J < dim; ++J)
                   deformation.F[3 * i + J] += u[a][i] * keep.gradient[a][J];
             deformation.complete();
-            evaluation.min_jacobian
-                = std::min(evaluation.min_jacobian, isochor::min(deformation.J));
+            lower(evaluation.min_jacobian, isochor::min(deformation.J));
 
             Response response;
             data.energy->evaluate(deformation, with_tangent, response);

@@ -24,10 +24,10 @@ namespace isochor
   Method Method::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Method");
-    Method method{ find_element(prm.get("Element"), "Method/Element"),
-                   linear_solver_names.value(prm.get("Linear solver"), "Method/Linear solver"),
-                   {},
-                   {} };
+    Method method{find_element(prm.get("Element"), "Method/Element"),
+                  linear_solver_names.value(prm.get("Linear solver"), "Method/Linear solver"),
+                  {},
+                  {}};
     method.stepping.parse(prm);
     method.newton.parse(prm);
     prm.leave_subsection();
@@ -37,19 +37,19 @@ namespace isochor
   void check_legal(const Method &method, const Material &material, const unsigned int n_ranks)
   {
     const std::string element(method.element.name);
-    if (!method.element.is_mixed())
-      {
-        const auto [mu, kappa] = moduli(
-            material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
-        if (!std::isfinite(kappa))
-          throw UserError("Method/Element: " + element
-                          + " has no pressure and cannot compute Scene/Poisson ratio = 0.5; choose "
-                            "a mixed element ("
-                          + listed(mixed_element_names())
-                          + ") or a Poisson ratio below 0.5, knowing that it locks near 0.5");
-        if (!(2. / 3. * mu + kappa > 0))
-          throw UserError("Scene/Poisson ratio: the material has no resistance to volume change");
-      }
+    const auto [mu, kappa]
+        = moduli(material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
+    if (!method.element.is_mixed() && !std::isfinite(kappa))
+      throw UserError("Method/Element: " + element
+                      + " has no pressure and cannot compute Scene/Poisson ratio = 0.5; choose a "
+                        "mixed element ("
+                      + listed(mixed_element_names())
+                      + ") or a Poisson ratio below 0.5, knowing that it locks near 0.5");
+    if (method.element.is_mixed() && !(kappa > 0))
+      throw UserError("Method/Element: " + element
+                      + " needs a positive volumetric modulus, which this Poisson ratio and "
+                        "Scene/Volumetric modulus do not give; choose a displacement element "
+                        "(P1, P2, P3) or a larger Poisson ratio");
     if (method.linear_solver == LinearSolver::umfpack && n_ranks > 1)
       throw UserError("Method/Linear solver: UMFPACK runs on one rank, not on "
                       + std::to_string(n_ranks) + "; choose MUMPS");

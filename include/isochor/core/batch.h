@@ -20,12 +20,19 @@ namespace isochor
     return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
   }
 
+  /// Lower @p least to @p value; a NaN, old or new, stays.
+  inline void lower(double &least, const double value)
+  {
+    if (value < least || value != value)
+      least = value;
+  }
+
+  /// Smallest lane; NaN if any lane is.
   inline double min(const Batch &x)
   {
     double least = x[0];
     for (unsigned int lane = 1; lane < n_lanes; ++lane)
-      // A NaN anywhere must come out as NaN.
-      least = !(x[lane] >= least) ? x[lane] : least;
+      lower(least, x[lane]);
     return least;
   }
 } // namespace isochor
