@@ -84,7 +84,7 @@ class Endings(unittest.TestCase):
                 self.assertIn("step below minimum", row["reason"])
                 self.assertEqual(row["tip [m]"], "")
 
-    def interrupt(self, ranks):
+    def interrupt(self, ranks, code):
         process = self.start(SLOW, ranks=ranks)
         deadline = time.monotonic() + 120
         steps = self.out / "steps.csv"
@@ -93,14 +93,17 @@ class Endings(unittest.TestCase):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
-        told = self.finish(process, 2)
+        told = self.finish(process, code)
         row = self.check_files("interrupted")
         self.assertIn("interrupted", told)
         self.assertRegex(row["reason"], "^interrupted (after|on the way to) load factor")
         self.assertLess(float(row["load factor"]), 1)
 
     def test_interrupt(self):
-        self.interrupt(ranks=1)
+        self.interrupt(ranks=1, code=2)
+
+    def test_interrupt_of_mpirun(self):
+        self.interrupt(ranks=2, code=1)  # mpirun's own code; it passes the signal on
 
     def test_bad_input_keeps_old_results(self):
         text = SCENE.format(cells="2, 1, 1", traction="0, -1, 0", steps=1)
