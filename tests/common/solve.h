@@ -1,0 +1,91 @@
+#pragma once
+
+// From a scene to its equilibrium in one call.
+
+#include <isochor/march/quasi_static.h>
+#include <isochor/mesh/mesh.h>
+
+namespace isochor::testing
+{
+  template <int dim>
+  struct Solution
+  {
+    MarchReport           report;
+    LinearStatistics      statistics;
+    Vector                state;
+    Vector                reactions;
+    std::vector<LoadStep> steps;
+  };
+
+  struct SolveOptions
+  {
+    unsigned int load_steps   = 1;
+    double       tolerance    = 1e-12;
+    double       minimum_step = 0.05;
+    LinearSolver linear       = LinearSolver::mumps;
+  };
+
+  template <int dim>
+  Solution<dim> solve(const Mesh<dim>           &mesh,
+                      const Discretisation<dim> &discretisation,
+                      const Scene<dim>          &scene,
+                      const SolveOptions        &options = {})
+  {
+    const Equilibrium<dim> equilibrium(
+        discretisation, scene, [&](const std::string &name, const std::string &what) {
+          return mesh.boundary_id(name, what);
+        });
+    Stopwatch          stopwatch;
+    TangentSolver<dim> tangent_solver(equilibrium, options.linear, stopwatch);
+
+    Solution<dim>  solution{{}, {}, discretisation.make_vector(), discretisation.make_vector(), {}};
+    MarchCallbacks callbacks;
+    callbacks.converged
+        = [&](const LoadStep &step, const Vector &) { solution.steps.push_back(step); };
+    callbacks.failed      = [](double, const NewtonReport &, double) {};
+    callbacks.interrupted = []() { return false; };
+    NewtonOptions newton;
+    newton.tolerance = options.tolerance;
+    solution.report  = march_quasi_static(equilibrium,
+                                         tangent_solver,
+                                         newton,
+                                         {options.load_steps, options.minimum_step},
+                                         callbacks,
+                                         stopwatch,
+                                         solution.state);
+    Vector residual  = discretisation.make_vector();
+    equilibrium.residual(solution.state, solution.report.load, residual, &solution.reactions);
+    solution.statistics = tangent_solver.statistics();
+    return solution;
+  }
+
+  /// Largest distance of the displacement from @p exact(X), and of the pressure from
+  /// @p pressure, over all nodes.
+  template <int dim, typename Exact>
+  std::array<double, 2> distance(const Discretisation<dim> &discretisation,
+                                 const Vector              &state,
+                                 const Exact               &exact,
+                                 const double               pressure)
+  {
+    const auto           &cells = discretisation.cells;
+    std::array<double, 2> largest{};
+    for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
+      {
+        for (unsigned int a = 0; a < cells.n_x; ++a)
+          {
+            const dealii::Tensor<1, dim> u
+                = exact(cells.position(cell, discretisation.x_shape.node(a)));
+            for (unsigned int c = 0; c < dim; ++c)
+              largest[0] = std::max(
+                  largest[0],
+                  std::abs(u[c] - state.local_element(cells.x[cell * cells.n_x + a] + c)));
+          }
+        for (unsigned int j = 0; j < cells.n_p; ++j)
+          largest[1] = std::max(
+              largest[1], std::abs(pressure - state.local_element(cells.p[cell * cells.n_p + j])));
+      }
+    for (double &entry : largest)
+      entry = dealii::Utilities::MPI::max(entry, MPI_COMM_WORLD);
+    return largest;
+  }
+} // namespace isochor::testing
