@@ -3,13 +3,24 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 
 namespace isochor
 {
   bool is_terminal()
   {
-    return isatty(STDOUT_FILENO) != 0;
+    if (isatty(STDOUT_FILENO) == 0)
+      return false;
+    // Open MPI gives each rank a terminal of its own; what counts is where mpirun writes.
+    if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
+      return true;
+    std::error_code   error;
+    const std::string target
+        = std::filesystem::read_symlink("/proc/" + std::to_string(getppid()) + "/fd/1", error)
+              .string();
+    return target.rfind("/dev/pts/", 0) == 0 || target.rfind("/dev/tty", 0) == 0;
   }
 
   void print_summary(const RunResult &result, const std::string &element)

@@ -3,6 +3,7 @@
 #include <isochor/run/result_rows.h>
 #include <isochor/run/study.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 
@@ -11,6 +12,9 @@ namespace isochor
   namespace
   {
     namespace fs = std::filesystem;
+
+    /// Status of a run of a study whose input is bad.
+    constexpr const char *refused = "refused";
 
     /// The marker by which a results folder is known as ours.
     constexpr const char *parameters_file = "parameters.prm";
@@ -163,6 +167,10 @@ namespace isochor
             if (interrupted_at)
               break;
           }
+        if (std::all_of(results.begin(), results.end(), [](const RunResult &result) {
+              return result.status == refused;
+            }))
+          code = ExitCode::bad_input;
         // In the order of the file, now that no reference has to come first.
         if (plan.is_study() && !interrupted_at)
           {
@@ -206,10 +214,10 @@ namespace isochor
             // Alone, bad input ends the program; in a study it is one failed run.
             if (!plan.is_study())
               throw;
-            RunResult refused;
-            refused.status = "refused";
-            refused.reason = error.what();
-            return refused;
+            RunResult result;
+            result.status = refused;
+            result.reason = error.what();
+            return result;
           }
       }
 
