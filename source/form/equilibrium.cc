@@ -65,6 +65,12 @@ namespace isochor
     if (discretisation.n_pressures > 0)
       volume_scale = pressure_volume(discretisation);
 
+    double cell_sizes = 0;
+    for (std::size_t cell = 0; cell < discretisation.cells.n_owned; ++cell)
+      cell_sizes += std::pow(discretisation.cells.determinant[cell], 1. / dim);
+    cell_size = dealii::Utilities::MPI::sum(cell_sizes, discretisation.communicator())
+                / double(discretisation.n_cells);
+
     SparseMatrix at_rest = pattern;
     tangent(discretisation.make_vector(), 0., at_rest);
     double squared = 0;
@@ -121,11 +127,13 @@ namespace isochor
 
     ResidualSize size;
     const double force_scale = std::sqrt(std::max(all[2], all[3]));
-    const double floor = 16. * std::numeric_limits<double>::epsilon() * stiffness_scale * largest;
-    size.force         = all[0] == 0. ? 0. : std::sqrt(all[0]) / force_scale;
-    size.rounding      = floor == 0. ? 0. : floor / force_scale;
-    size.constraint    = volume_scale > 0 ? std::sqrt(all[1]) / volume_scale : 0.;
-    size.value         = all[4];
+    // F = 1 + grad u rounds like a displacement of one cell even where u is much smaller.
+    const double floor
+        = 16. * std::numeric_limits<double>::epsilon() * stiffness_scale * (largest + cell_size);
+    size.force      = all[0] == 0. ? 0. : std::sqrt(all[0]) / force_scale;
+    size.rounding   = floor == 0. ? 0. : floor / force_scale;
+    size.constraint = volume_scale > 0 ? std::sqrt(all[1]) / volume_scale : 0.;
+    size.value      = all[4];
     // MPI's minimum may lose a NaN; the residual's norm does not.
     size.min_jacobian = dealii::Utilities::MPI::min(
         std::isnan(internals.min_jacobian) ? -1e300 : internals.min_jacobian, communicator);

@@ -69,5 +69,6 @@ namespace isochor
     std::vector<std::unique_ptr<Term>> loads;
     double                             volume_scale    = 0; ///< |int N_p|
     double                             stiffness_scale = 0; ///< |diagonal of the tangent at rest|
+    double                             cell_size       = 0; ///< mean over the cells, m
   };
 } // namespace isochor
