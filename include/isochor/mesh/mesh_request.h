@@ -2,7 +2,7 @@
 
 // What mesh a scene asks for, as the parameter file says it.
 
-#include <isochor/core/names.h>
+#include <isochor/core/reference_cell.h>
 
 #include <string>
 #include <vector>
@@ -17,9 +17,8 @@ namespace isochor
     five_tets,     ///< alternating: four corners and a core, mirrored from block to block
     right_diagonal ///< 2D: every quadrilateral cut from lower left to upper right
   };
-  inline constexpr auto split_names = name_table<Split>({ { Split::six_tets, "6-tet" },
-                                                          { Split::five_tets, "5-tet" },
-                                                          { Split::right_diagonal, "right" } });
+  inline constexpr auto split_names = name_table<Split>(
+      {{Split::six_tets, "6-tet"}, {Split::five_tets, "5-tet"}, {Split::right_diagonal, "right"}});
 
   struct MeshRequest
   {
@@ -33,5 +32,9 @@ namespace isochor
     /// Generators: blocks per direction; empty: round(length / size), at least 1.
     std::vector<unsigned int> cells;
     Split                     split = Split::six_tets;
+    /// What cells the element is made for.
+    CellKind kind = CellKind::simplex;
+    /// 1: straight cells; 2: quadratic cells, which follow a curved surface.
+    unsigned int geometry_order = 1;
   };
 } // namespace isochor
