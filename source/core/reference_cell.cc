@@ -45,7 +45,7 @@ namespace isochor
     }
   } // namespace
 
-  std::string cells_word(const CellKind kind, const int dim)
+  std::string cells_name(const CellKind kind, const int dim)
   {
     if (kind == CellKind::simplex)
       return dim == 2 ? "triangles" : "tetrahedra";

@@ -24,7 +24,7 @@ namespace isochor
   };
 
   /// "triangles", "tetrahedra", "quadrilaterals" or "hexahedra", for messages.
-  std::string cells_word(CellKind kind, int dim);
+  std::string cells_name(CellKind kind, int dim);
 
   template <int dim>
   dealii::ReferenceCell reference_cell(CellKind kind);
