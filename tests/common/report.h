@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -16,6 +17,13 @@ namespace isochor::testing
   {
     static std::ostream nowhere(nullptr);
     return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : nowhere;
+  }
+
+  /// Keep the larger error. A NaN counts as infinite; std::max would forget it, and so may MPI.
+  inline void raise(double &largest, const double error)
+  {
+    if (!(error <= largest))
+      largest = std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
   }
 
   /// "below 1e-12", or what @p error is instead. Rounding is not worth comparing, its size is.

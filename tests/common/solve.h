@@ -2,6 +2,8 @@
 
 // From a scene to its equilibrium in one call.
 
+#include "report.h"
+
 #include <isochor/march/quasi_static.h>
 #include <isochor/mesh/mesh.h>
 
@@ -76,13 +78,12 @@ namespace isochor::testing
             const dealii::Tensor<1, dim> u
                 = exact(cells.position(cell, discretisation.x_shape.node(a)));
             for (unsigned int c = 0; c < dim; ++c)
-              largest[0] = std::max(
-                  largest[0],
-                  std::abs(u[c] - state.local_element(cells.x[cell * cells.n_x + a] + c)));
+              raise(largest[0],
+                    std::abs(u[c] - state.local_element(cells.x[cell * cells.n_x + a] + c)));
           }
         for (unsigned int j = 0; j < cells.n_p; ++j)
-          largest[1] = std::max(
-              largest[1], std::abs(pressure - state.local_element(cells.p[cell * cells.n_p + j])));
+          raise(largest[1],
+                std::abs(pressure - state.local_element(cells.p[cell * cells.n_p + j])));
       }
     for (double &entry : largest)
       entry = dealii::Utilities::MPI::max(entry, MPI_COMM_WORLD);

@@ -42,7 +42,7 @@ namespace
     double       nodal = 0, unity = 0, gradient_sum = 0, slope = 0, reproduced = 0;
     for (unsigned int i = 0; i < shape.n_nodes(); ++i)
       for (unsigned int j = 0; j < shape.n_nodes(); ++j)
-        nodal = std::max(nodal, std::abs(shape.value(i, shape.node(j)) - (i == j)));
+        raise(nodal, std::abs(shape.value(i, shape.node(j)) - (i == j)));
 
     for (unsigned int sample = 0; sample < 20; ++sample)
       {
@@ -60,12 +60,12 @@ namespace
                 const auto   step       = 1e-2 * dealii::Point<dim>::unit_vector(d);
                 const auto   at         = [&](double s) { return shape.value(i, xi + s * step); };
                 const double difference = (8. * (at(1) - at(-1)) - (at(2) - at(-2))) / (12. * 1e-2);
-                slope = std::max(slope, std::abs(difference - shape.gradient(i, xi)[d]));
+                raise(slope, std::abs(difference - shape.gradient(i, xi)[d]));
               }
           }
-        unity        = std::max(unity, std::abs(sum - 1.));
-        gradient_sum = std::max(gradient_sum, sum_of_gradients.norm());
-        reproduced   = std::max(reproduced, std::abs(interpolant - polynomial(xi, shape.degree())));
+        raise(unity, std::abs(sum - 1.));
+        raise(gradient_sum, sum_of_gradients.norm());
+        raise(reproduced, std::abs(interpolant - polynomial(xi, shape.degree())));
       }
     std::cout << "  nodal property " << below(nodal, 1e-13) << ", sum " << below(unity, 1e-13)
               << ", sum of gradients " << below(gradient_sum, 1e-12) << "\n  gradients "
@@ -103,7 +103,7 @@ namespace
       for (unsigned int n = 0; n < 2; ++n)
         {
           const auto near = vertex(edge.vertices[n]), far = vertex(edge.vertices[1 - n]);
-          third = std::max(third, shape.node(edge.nodes[n]).distance(near + (far - near) / 3.));
+          raise(third, shape.node(edge.nodes[n]).distance(near + (far - near) / 3.));
         }
     std::cout << "\n  cubic edges: " << shape.edge_nodes().size() << ", nodes at thirds "
               << below(third, 1e-15) << '\n';
@@ -111,7 +111,7 @@ namespace
     const NodalElement<dim> element(shape.degree());
     double                  moved = 0;
     for (unsigned int i = 0; i < shape.n_nodes(); ++i)
-      moved = std::max(moved, element.unit_support_point(i).distance(shape.node(i)));
+      raise(moved, element.unit_support_point(i).distance(shape.node(i)));
     std::cout << "  deal.II element with " << element.n_dofs_per_cell()
               << " DoFs, support points moved " << below(moved, 1e-15);
     if (shape.degree() == 1 || shape.degree() == 2)
@@ -119,7 +119,7 @@ namespace
         const dealii::FE_SimplexP<dim> theirs(shape.degree());
         double                         apart = 0;
         for (unsigned int i = 0; i < shape.n_nodes(); ++i)
-          apart = std::max(apart, theirs.unit_support_point(i).distance(shape.node(i)));
+          raise(apart, theirs.unit_support_point(i).distance(shape.node(i)));
         std::cout << ", nodes apart from FE_SimplexP's " << below(apart, 1e-15);
       }
     std::cout << '\n';

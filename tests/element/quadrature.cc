@@ -36,7 +36,7 @@ namespace
                 term *= std::pow(quadrature.point(q)[d], power[d]);
               sum += term;
             }
-          worst = std::max(worst, std::abs(sum - exact) / exact);
+          raise(worst, std::abs(sum - exact) / exact);
         }
     return worst;
   }
@@ -51,16 +51,16 @@ namespace
         double       error = 0, outside = 0;
         unsigned int fails = 0;
         for (; worst_error(quadrature, fails) < 1e-9; ++fails)
-          error = std::max(error, worst_error(quadrature, fails));
+          raise(error, worst_error(quadrature, fails));
         for (const auto &point : quadrature.get_points())
           {
             double rest = 1.;
             for (unsigned int d = 0; d < dim; ++d)
               {
-                outside = std::max(outside, -point[d]);
+                raise(outside, -point[d]);
                 rest -= point[d];
               }
-            outside = std::max(outside, -rest);
+            raise(outside, -rest);
           }
         std::cout << "  degree " << degree << ": " << quadrature.size() << " points, fails at "
                   << fails << ", before that errors " << below(error, 1e-12)

@@ -5,7 +5,7 @@
 //   equibiaxial:              P_11 = mu (l - l^-5);  l = 2: 1.96875 mu
 //   pure shear:               P_11 = mu (l - l^-3);  l = 2: 1.875 mu
 //   simple shear g:           s_12 = mu g, s_11 - s_22 = mu g^2;  g = 0.8: 0.8 mu, 0.64 mu
-// Then a compressible bar stretched by 1e-6 must show the E and nu that were asked for.
+// Then a compressible bar stretched by 1e-7 must show the E and nu that were asked for, to 1e-6.
 
 #include "../common/meshes.h"
 #include "../common/report.h"
@@ -135,7 +135,7 @@ namespace
           out() << ", P_22 / mu = " << P[1][1];
         double lateral = 0;
         for (unsigned int d = c.name == "equibiaxial" ? 2 : 1; d < dim; ++d)
-          lateral = std::max(lateral, std::abs(P[d][d]));
+          raise(lateral, std::abs(P[d][d]));
         if (c.name != "simple shear")
           out() << ", on the free sides " << below(lateral, 1e-9);
         out() << '\n';
@@ -156,7 +156,7 @@ namespace
           // A mixed element at nu = 0 has kappa = lambda = 0; that is not what it is for.
           if (name != "P1" && nu == 0. && energy == Energy::neo_hookean)
             continue;
-          const double stretch = 1e-6;
+          const double stretch = 1e-7;
           scene.supports       = rollers<3>();
           const auto F = diagonal<3>({{1. + stretch, 1. - nu * stretch, 1. - nu * stretch}});
           scene.supports.push_back(held<3>("right", "x", follows(F)));
@@ -168,9 +168,9 @@ namespace
           out() << "  " << name << ", " << energy_names.name(energy) << ", "
                 << volumetric_strain_names.name(strain) << ": "
                 << run_status_names.name(solution.report.status) << solution.report.reason
-                << ", E asked for " << below(std::abs(P[0][0] / stretch / 6e5 - 1.), 5e-6)
+                << ", E asked for " << below(std::abs(P[0][0] / stretch / 6e5 - 1.), 1e-6)
                 << ", nu = " << nu << ' '
-                << below(distance(discretisation, solution.state, u, 0.)[0] / stretch, 5e-6)
+                << below(distance(discretisation, solution.state, u, 0.)[0] / stretch, 1e-6)
                 << '\n';
         }
   }

@@ -45,8 +45,7 @@ namespace
             const LocalIndex i = cells.x[cell * cells.n_x + a] + c;
             const double value = (c + 1) * f(cells.position(cell, discretisation.x_shape.node(a)));
             if (written[i])
-              result.disagreement[0]
-                  = std::max(result.disagreement[0], std::abs(value - vector.local_element(i)));
+              raise(result.disagreement[0], std::abs(value - vector.local_element(i)));
             written[i]              = true;
             vector.local_element(i) = value;
           }
@@ -58,9 +57,8 @@ namespace
     result.values.update_ghost_values();
     for (std::size_t i = 0; i < written.size(); ++i)
       if (written[i])
-        result.disagreement[1]
-            = std::max(result.disagreement[1],
-                       std::abs(result.values.local_element(i) - vector.local_element(i)));
+        raise(result.disagreement[1],
+              std::abs(result.values.local_element(i) - vector.local_element(i)));
     return result;
   }
 
@@ -86,7 +84,7 @@ namespace
               double value = 0;
               for (unsigned int a = 0; a < cells.n_x; ++a)
                 value += shape[q][a] * values.local_element(cells.x[cell * cells.n_x + a] + c);
-              largest = std::max(largest, std::abs(value - (c + 1) * exact));
+              raise(largest, std::abs(value - (c + 1) * exact));
               if (c == 0)
                 squared
                     += std::pow(value - exact, 2) * quadrature.weight(q) * cells.determinant[cell];
@@ -131,11 +129,10 @@ namespace
               for (unsigned int v = 1; v <= dim; ++v)
                 {
                   const auto *vertex = &discretisation.cells.vertices[cell * (dim + 1)];
-                  jacobian           = std::max(
-                      jacobian,
-                      std::abs(inverse[k] * (vertex[v] - vertex[0]) - (v == k + 1 ? 1. : 0.)));
+                  raise(jacobian,
+                        std::abs(inverse[k] * (vertex[v] - vertex[0]) - (v == k + 1 ? 1. : 0.)));
                 }
-            jacobian = std::max(jacobian, std::abs(det * dealii::determinant(inverse) - 1.));
+            raise(jacobian, std::abs(det * dealii::determinant(inverse) - 1.));
           }
         out() << name << ", " << title << ": cells disagree "
               << below(MPI::max(interpolant.disagreement[0], MPI_COMM_WORLD), 1e-13)

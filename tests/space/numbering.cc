@@ -97,7 +97,7 @@ namespace
                   && discretisation.node_of_row[head] == discretisation.node_of_row[row])
                 best = place.distance(cells.position(cell, discretisation.x_shape.node(a)));
             }
-          largest = std::max(largest, best);
+          raise(largest, best);
         }
     return MPI::max(largest, MPI_COMM_WORLD);
   }
@@ -231,7 +231,7 @@ namespace
     out() << ", after closing it " << below(prescribed.gap(closed, 0.5, gap), 1e-15)
           << "\n  asymmetry before " << below(asymmetry(before), 1e-12) << ", after "
           << below(asymmetry(after), 1e-12) << ", free rows changed "
-          << below(residual.linfty_norm(), 1e-12) << ", held unknowns "
+          << below(residual.l2_norm(), 1e-12) << ", held unknowns "
           << MPI::sum(n_held, MPI_COMM_WORLD) << '\n';
   }
 } // namespace
