@@ -1,20 +1,9 @@
 #include <isochor/element/lagrange_simplex.h>
 
-#include <deal.II/grid/reference_cell.h>
-
-#include <algorithm>
+#include <stdexcept>
 
 namespace isochor
 {
-  namespace
-  {
-    template <int dim>
-    dealii::ReferenceCell simplex()
-    {
-      return dealii::ReferenceCells::get_simplex<dim>();
-    }
-  } // namespace
-
   template <int dim>
   std::array<double, dim + 1> barycentric(const dealii::Point<dim> &xi)
   {
@@ -26,28 +15,6 @@ namespace isochor
         lambda[0] -= xi[d];
       }
     return lambda;
-  }
-
-  template <int dim>
-  std::array<unsigned int, dim> face_vertices(const unsigned int face)
-  {
-    std::array<unsigned int, dim> vertices;
-    for (unsigned int v = 0; v < dim; ++v)
-      vertices[v] = simplex<dim>().face_to_cell_vertices(face, v, 1);
-    return vertices;
-  }
-
-  template <int dim>
-  std::array<unsigned int, 2> edge_vertices(const unsigned int edge)
-  {
-    if constexpr (dim == 2)
-      return face_vertices<2>(edge);
-    else
-      {
-        const auto [face, line] = simplex<3>().standard_line_to_face_and_line_index(edge);
-        const auto vertices     = face_vertices<3>(face);
-        return { { vertices[line], vertices[(line + 1) % 3] } };
-      }
   }
 
   template <int dim>
@@ -71,9 +38,8 @@ namespace isochor
       }
 
     if (degree >= 2)
-      for (unsigned int edge = 0; edge < simplex<dim>().n_lines(); ++edge)
+      for (const auto &ends : reference_edges<dim>(CellKind::simplex))
         {
-          const auto ends = edge_vertices<dim>(edge);
           for (unsigned int n = 1; n < degree; ++n)
             {
               MultiIndex inner{};
@@ -82,14 +48,14 @@ namespace isochor
               indices.push_back(inner);
             }
           if (degree == 3)
-            cubic_edges.push_back({ ends, { { n_nodes() - 2, n_nodes() - 1 } } });
+            cubic_edges.push_back({ends, {{n_nodes() - 2, n_nodes() - 1}}});
         }
 
     if (degree == 3 && dim == 3)
-      for (unsigned int face = 0; face < simplex<dim>().n_faces(); ++face)
+      for (const auto &face : reference_faces<dim>(CellKind::simplex))
         {
           MultiIndex inner{};
-          for (const unsigned int v : face_vertices<dim>(face))
+          for (const unsigned int v : face)
             inner[v] = 1;
           indices.push_back(inner);
         }
@@ -157,12 +123,11 @@ namespace isochor
   template <int dim>
   std::vector<unsigned int> LagrangeSimplex<dim>::nodes_on_face(const unsigned int face_no) const
   {
-    const auto                vertices = face_vertices<dim>(face_no);
     std::vector<unsigned int> nodes;
     for (unsigned int i = 0; i < n_nodes(); ++i)
       {
         unsigned int on_face = 0;
-        for (const unsigned int v : vertices)
+        for (const unsigned int v : reference_faces<dim>(CellKind::simplex)[face_no])
           on_face += indices[i][v];
         if (degree_ > 0 && on_face == degree_)
           nodes.push_back(i);
@@ -187,10 +152,6 @@ namespace isochor
 
   template class LagrangeSimplex<2>;
   template class LagrangeSimplex<3>;
-  template std::array<double, 3>       barycentric(const dealii::Point<2> &);
-  template std::array<double, 4>       barycentric(const dealii::Point<3> &);
-  template std::array<unsigned int, 2> edge_vertices<2>(unsigned int);
-  template std::array<unsigned int, 2> edge_vertices<3>(unsigned int);
-  template std::array<unsigned int, 2> face_vertices<2>(unsigned int);
-  template std::array<unsigned int, 3> face_vertices<3>(unsigned int);
+  template std::array<double, 3> barycentric(const dealii::Point<2> &);
+  template std::array<double, 4> barycentric(const dealii::Point<3> &);
 } // namespace isochor

@@ -5,26 +5,25 @@ namespace isochor
   namespace
   {
     template <int dim>
-    dealii::FiniteElementData<dim> layout(const unsigned int degree)
+    dealii::FiniteElementData<dim> layout(const ShapeFunctions<dim> &shape)
     {
-      return dealii::FiniteElementData<dim>(LagrangeSimplex<dim>(degree).nodes_per_object(),
-                                            dealii::ReferenceCells::get_simplex<dim>(),
+      return dealii::FiniteElementData<dim>(shape.nodes_per_object(),
+                                            reference_cell<dim>(shape.kind()),
                                             1,
-                                            degree,
-                                            degree == 0 ? dealii::FiniteElementData<dim>::L2
-                                                        : dealii::FiniteElementData<dim>::H1);
+                                            shape.degree(),
+                                            shape.is_discontinuous()
+                                                ? dealii::FiniteElementData<dim>::L2
+                                                : dealii::FiniteElementData<dim>::H1);
     }
   } // namespace
 
   template <int dim>
-  NodalElement<dim>::NodalElement(const unsigned int degree)
+  NodalElement<dim>::NodalElement(const ShapeFunctions<dim> &shape)
     : dealii::FiniteElement<dim>(
-        layout<dim>(degree),
+        layout(shape),
         std::vector<bool>(1, false),
         std::vector<dealii::ComponentMask>(1, dealii::ComponentMask(1, true)))
-    , degree_(degree)
   {
-    const LagrangeSimplex<dim> shape(degree);
     for (unsigned int i = 0; i < shape.n_nodes(); ++i)
       this->unit_support_points.push_back(shape.node(i));
   }
@@ -32,13 +31,14 @@ namespace isochor
   template <int dim>
   std::unique_ptr<dealii::FiniteElement<dim>> NodalElement<dim>::clone() const
   {
-    return std::make_unique<NodalElement<dim>>(degree_);
+    return std::make_unique<NodalElement<dim>>(*this);
   }
 
   template <int dim>
   std::string NodalElement<dim>::get_name() const
   {
-    return "NodalElement<" + std::to_string(dim) + ">(" + std::to_string(degree_) + ")";
+    return "NodalElement<" + std::to_string(dim) + ">(" + std::to_string(this->n_dofs_per_cell())
+           + " nodes)";
   }
 
   template <int dim>

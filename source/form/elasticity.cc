@@ -9,17 +9,24 @@ namespace isochor
   Elasticity<dim>::Elasticity(const Discretisation<dim> &discretisation,
                               const Energy               energy,
                               const VolumetricStrain     volumetric_strain,
-                              const Moduli              &moduli)
-    : data{discretisation, make_distortional_energy(energy, moduli.mu), volumetric_strain, moduli}
+                              const Moduli              &moduli,
+                              const ComplianceOptions   &options)
+    : data{discretisation,
+           make_distortional_energy(energy, moduli.mu),
+           volumetric_strain,
+           moduli,
+           {moduli.compliance(),
+            options.lumped,
+            discretisation.element.is_stabilised ? options.stabilisation / moduli.mu : 0.}}
   {
     const Element &element = discretisation.element;
     if (!element.is_mixed() && !std::isfinite(moduli.kappa))
       throw std::logic_error("a displacement element needs a finite kappa");
 
-    const bool linear
-        = element.displacement_degree == 1 && element.pressure_degree.value_or(1) == 1;
-    if (linear)
-      kernel = make_linear_kernel<dim>(element.is_mixed());
+    const bool is_linear = discretisation.x_shape.degree() == 1 && element.kind == CellKind::simplex
+                           && discretisation.cells.all_affine;
+    if (is_linear)
+      kernel = make_linear_kernel<dim>(discretisation.cells.n_p);
     else
       kernel = make_quadrature_kernel(discretisation);
   }

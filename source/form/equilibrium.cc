@@ -1,5 +1,4 @@
-#include <isochor/element/simplex_quadrature.h>
-#include <isochor/form/elasticity.h>
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/form/equilibrium.h>
 #include <isochor/form/loads.h>
 
@@ -13,14 +12,15 @@ namespace isochor
     template <int dim>
     double pressure_volume(const Discretisation<dim> &discretisation)
     {
-      const CellTables<dim> &cells      = discretisation.cells;
-      const auto             quadrature = simplex_quadrature<dim>(discretisation.p_shape.degree());
-      Vector                 volume     = discretisation.make_vector();
+      const CellTables<dim> &cells = discretisation.cells;
+      const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.quadrature_degree());
+      const GeometryTable<dim> geometry(cells, quadrature.get_points());
+      Vector                   volume = discretisation.make_vector();
       for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
         for (unsigned int j = 0; j < cells.n_p; ++j)
           for (unsigned int q = 0; q < quadrature.size(); ++q)
             volume.local_element(cells.p[cell * cells.n_p + j])
-                += quadrature.weight(q) * cells.determinant[cell]
+                += quadrature.weight(q) * geometry.determinant(cell, q)
                    * discretisation.p_shape.value(j, quadrature.point(q));
       volume.zero_out_ghost_values();
       return volume.l2_norm();
@@ -41,17 +41,18 @@ namespace isochor
   template <int dim>
   Equilibrium<dim>::Equilibrium(const Discretisation<dim> &discretisation,
                                 const Scene<dim>          &scene,
-                                const BoundaryId          &boundary_id)
+                                const BoundaryId          &boundary_id,
+                                const ComplianceOptions   &compliance)
     : discretisation_(discretisation)
     , prescribed_(discretisation, scene.supports, boundary_id)
     , offsets(make_pattern(discretisation, pattern))
   {
     const Material &material = scene.material;
-    internal                 = std::make_unique<Elasticity<dim>>(
-        discretisation,
-        material.energy,
-        material.volumetric_strain,
-        moduli(material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa));
+    const Moduli    moduli   = isochor::moduli(
+        material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
+    is_compressible_ = std::isfinite(moduli.kappa);
+    internal         = std::make_unique<Elasticity<dim>>(
+        discretisation, material.energy, material.volumetric_strain, moduli, compliance);
     if (scene.gravity.norm() > 0)
       loads.push_back(
           std::make_unique<BodyForce<dim>>(discretisation, material.density, scene.gravity));

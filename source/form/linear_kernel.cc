@@ -2,11 +2,13 @@
 #include <isochor/form/local_system.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace isochor
 {
   namespace
   {
+    /// Pressures: none, one per cell, or one per vertex.
     template <int dim, int n_p>
     class LinearKernel : public Elasticity<dim>::Kernel
     {
@@ -143,23 +145,32 @@ namespace isochor
         if constexpr (mixed)
           {
             // int N_j N_k = V (1 + delta_jk) / ((d + 1) (d + 2)); equation (18).
-            const Batch mass   = in.volume * (1. / ((dim + 1) * (dim + 2)));
-            out.C_off_diagonal = mass * data.moduli.compliance();
-            out.C_diagonal     = 2. * out.C_off_diagonal;
+            constexpr double off = n_p == 1 ? 0. : 1. / ((dim + 1) * (dim + 2));
+            constexpr double on  = n_p == 1 ? 1. : 2. * off;
+            constexpr double row = 1. / n_p;
+            const auto      &C   = data.compliance;
+            out.C_off_diagonal
+                = in.volume
+                  * ((C.lumped ? 0. : off) * C.compliance + (off - row * row) * C.stabilisation);
+            out.C_diagonal
+                = in.volume
+                  * ((C.lumped ? row : on) * C.compliance + (on - row * row) * C.stabilisation);
             const Batch strain = in.volume * volumetric.phi * (1. / n_p);
             for (int j = 0; j < n_p; ++j)
               {
-                const Batch Cp = out.C_off_diagonal * (n_p * q + in.p[j]);
-                out.r_p[j]     = strain - Cp;
+                const Batch Cp = out.C_off_diagonal * (n_p * q)
+                                 + (out.C_diagonal - out.C_off_diagonal) * in.p[j];
+                out.r_p[j] = strain - Cp;
                 out.value -= 0.5 * in.p[j] * Cp;
               }
           }
 
         if (with_tangent)
-          tangent(in, deformation, volumetric, response, out);
+          tangent(data.energy->is_symmetric(), in, deformation, volumetric, response, out);
       }
 
-      static void tangent(const CellBatch          &in,
+      static void tangent(const bool                is_symmetric,
+                          const CellBatch          &in,
                           const Deformation        &deformation,
                           const VolumetricResponse &volumetric,
                           const Response           &response,
@@ -181,7 +192,7 @@ namespace isochor
                     for (int L = 1; L < dim; ++L)
                       B[i][J][k] += A[L] * gradient[L];
                   }
-            for (int a = 0; a <= b; ++a)
+            for (int a = 0; a <= (is_symmetric ? b : n_x - 1); ++a)
               for (int i = 0; i < dim; ++i)
                 for (int k = 0; k < dim; ++k)
                   {
@@ -189,7 +200,8 @@ namespace isochor
                     for (int J = 1; J < dim; ++J)
                       K += B[i][J][k] * in.gradient[a][J];
                     out.K[dim * a + i][dim * b + k] = K;
-                    out.K[dim * b + k][dim * a + i] = K;
+                    if (is_symmetric)
+                      out.K[dim * b + k][dim * a + i] = K;
                   }
             if constexpr (mixed)
               for (int i = 0; i < dim; ++i)
@@ -230,13 +242,17 @@ namespace isochor
   } // namespace
 
   template <int dim>
-  std::unique_ptr<const typename Elasticity<dim>::Kernel> make_linear_kernel(const bool mixed)
+  std::unique_ptr<const typename Elasticity<dim>::Kernel> make_linear_kernel(const unsigned int n_p)
   {
-    if (mixed)
+    if (n_p == dim + 1)
       return std::make_unique<LinearKernel<dim, dim + 1>>();
-    return std::make_unique<LinearKernel<dim, 0>>();
+    if (n_p == 1)
+      return std::make_unique<LinearKernel<dim, 1>>();
+    if (n_p == 0)
+      return std::make_unique<LinearKernel<dim, 0>>();
+    throw std::logic_error("no linear kernel with this number of pressures");
   }
 
-  template std::unique_ptr<const Elasticity<2>::Kernel> make_linear_kernel<2>(bool);
-  template std::unique_ptr<const Elasticity<3>::Kernel> make_linear_kernel<3>(bool);
+  template std::unique_ptr<const Elasticity<2>::Kernel> make_linear_kernel<2>(unsigned int);
+  template std::unique_ptr<const Elasticity<3>::Kernel> make_linear_kernel<3>(unsigned int);
 } // namespace isochor

@@ -1,4 +1,4 @@
-#include <isochor/element/simplex_quadrature.h>
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/form/loads.h>
 #include <isochor/space/matrix_pattern.h>
 
@@ -41,18 +41,24 @@ namespace isochor
   template <int dim>
   void BodyForce<dim>::fill(const double load, Vector &force) const
   {
-    const CellTables<dim> &cells      = discretisation.cells;
-    const auto             quadrature = simplex_quadrature<dim>(discretisation.x_shape.degree());
-    std::vector<double>    share(cells.n_x, 0.); // int N_a on the reference cell
-    for (unsigned int a = 0; a < cells.n_x; ++a)
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        share[a] += quadrature.weight(q) * discretisation.x_shape.value(a, quadrature.point(q));
+    const CellTables<dim> &cells = discretisation.cells;
+    const auto quadrature        = cell_quadrature<dim>(cells.kind, discretisation.volume_degree());
+    const GeometryTable<dim> geometry(cells, quadrature.get_points());
+    std::vector<double>      shares; // [q * n_x + a]: w_q N_a
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      for (unsigned int a = 0; a < cells.n_x; ++a)
+        shares.push_back(quadrature.weight(q)
+                         * discretisation.x_shape.value(a, quadrature.point(q)));
 
     for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
-      for (unsigned int a = 0; a < cells.n_x; ++a)
-        for (unsigned int c = 0; c < dim; ++c)
-          force.local_element(cells.x[cell * cells.n_x + a] + c)
-              += load * weight[c] * share[a] * cells.determinant[cell];
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          const double determinant = geometry.determinant(cell, q);
+          for (unsigned int a = 0; a < cells.n_x; ++a)
+            for (unsigned int c = 0; c < dim; ++c)
+              force.local_element(cells.x[cell * cells.n_x + a] + c)
+                  += load * weight[c] * shares[q * cells.n_x + a] * determinant;
+        }
   }
 
   template <int dim>
@@ -63,7 +69,7 @@ namespace isochor
     , discretisation(discretisation)
     , boundary(boundary)
     , traction(std::move(traction))
-    , tables(discretisation.x_shape, 2 * discretisation.x_shape.degree() + 1)
+    , tables(discretisation, 2 * discretisation.x_shape.trace_degree() + 1)
   {
   }
 
@@ -97,7 +103,7 @@ namespace isochor
     : discretisation(discretisation)
     , boundary(boundary)
     , pressure(std::move(pressure))
-    , tables(discretisation.x_shape, FaceTables<dim>::exact_degree(discretisation.x_shape))
+    , tables(discretisation, FaceTables<dim>::exact_degree(discretisation))
   {
   }
 

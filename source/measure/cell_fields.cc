@@ -64,6 +64,7 @@ namespace isochor
 
     Points points;
     points.n_points = reference_points.size();
+    points.geometry = std::make_shared<GeometryTable<dim>>(discretisation.cells, reference_points);
     points.x.resize(n_batches * n_x);
     points.p.resize(n_batches * n_p);
     for (unsigned int k = 0; k < n_batches * n_lanes; ++k)
@@ -91,8 +92,7 @@ namespace isochor
                                  const double                  *values,
                                  std::vector<PointFields<dim>> &fields) const
   {
-    const CellTables<dim> &cells   = discretisation.cells;
-    const double          *inverse = cells.inverse(cell);
+    const CellTables<dim> &cells = discretisation.cells;
 
     fields.resize(points.n_points);
     for (unsigned int first = 0, batch_no = 0; first < points.n_points;
@@ -111,6 +111,16 @@ namespace isochor
               }
           }
 
+        Batch inverse[dim][dim];
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            const auto map
+                = points.geometry->map(cell, std::min(first + lane, points.n_points - 1));
+            for (int k = 0; k < dim; ++k)
+              for (int J = 0; J < dim; ++J)
+                inverse[k][J][lane] = map.inverse[k][J];
+          }
+
         Deformation deformation;
         for (int i = 0; i < 3; ++i)
           for (int J = 0; J < 3; ++J)
@@ -118,7 +128,7 @@ namespace isochor
         for (int i = 0; i < dim; ++i)
           for (int J = 0; J < dim; ++J)
             for (int k = 0; k < dim; ++k)
-              deformation.F[3 * i + J] += by_xi[i][k] * inverse[k * dim + J];
+              deformation.F[3 * i + J] += by_xi[i][k] * inverse[k][J];
         deformation.complete();
 
         Response response;

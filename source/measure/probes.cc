@@ -1,5 +1,5 @@
 #include <isochor/core/error.h>
-#include <isochor/element/simplex_quadrature.h>
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/measure/probes.h>
 
 #include <algorithm>
@@ -18,6 +18,52 @@ namespace isochor
     {
       return dealii::Utilities::MPI::sum(mine, communicator);
     }
+    /// Is @p point near the geometry nodes of the cell?
+    template <int dim>
+    bool
+    may_hold(const CellTables<dim> &cells, const std::size_t cell, const dealii::Point<dim> &point)
+    {
+      double extent = 0;
+      for (unsigned int i = 1; i < cells.n_g; ++i)
+        extent = std::max(extent, cells.vertex(cell, i).distance(cells.vertex(cell, 0)));
+      return point.distance(cells.vertex(cell, 0)) <= 2. * extent;
+    }
+
+    /// Where in the reference cell @p point is, by Newton's method; exact after one step if the cell
+    /// is affine. Far away if the iteration leaves the cell.
+    template <int dim>
+    dealii::Point<dim> reference_point(const CellTables<dim>    &cells,
+                                       const std::size_t         cell,
+                                       const dealii::Point<dim> &point)
+    {
+      dealii::Point<dim> xi;
+      for (unsigned int v = 0; v < n_vertices(cells.kind, dim); ++v)
+        xi += reference_vertex<dim>(cells.kind, v) / n_vertices(cells.kind, dim);
+      for (unsigned int iteration = 0; iteration < 20; ++iteration)
+        {
+          const dealii::Tensor<1, dim> step
+              = cells.map(cell, xi).inverse * (point - cells.position(cell, xi));
+          xi += step;
+          if (cells.is_affine[cell] || step.norm() < 1e-12 || !(xi.norm() < 10))
+            break;
+        }
+      return xi;
+    }
+
+    /// Distance from the nearest side of the reference cell, by its coordinates; negative outside.
+    template <int dim>
+    double depth(const CellKind kind, const dealii::Point<dim> &xi)
+    {
+      double least = 1., sum = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          least = std::min(least, xi[d]);
+          sum += xi[d];
+          if (kind == CellKind::hypercube)
+            least = std::min(least, 1. - xi[d]);
+        }
+      return kind == CellKind::simplex ? std::min(least, 1. - sum) : least;
+    }
   } // namespace
 
   template <int dim>
@@ -25,9 +71,9 @@ namespace isochor
                       const std::vector<ProbeRequest<dim>> &requests,
                       const BoundaryId                     &boundary_id)
     : discretisation(discretisation)
-    , faces(discretisation.x_shape,
-            std::max(FaceTables<dim>::exact_degree(discretisation.x_shape),
-                     2 * discretisation.x_shape.degree()))
+    , faces(discretisation,
+            std::max(FaceTables<dim>::exact_degree(discretisation),
+                     2 * discretisation.x_shape.trace_degree()))
   {
     const CellTables<dim> &cells = discretisation.cells;
     for (const auto &request : requests)
@@ -81,22 +127,17 @@ namespace isochor
   template <int dim>
   void Probes<dim>::locate(Probe &probe) const
   {
-    // The owned cell whose smallest barycentric coordinate of the point is largest; over all
-    // ranks the best one answers.
+    // The owned cell that the point is deepest in; over all ranks the best one answers.
     const CellTables<dim> &cells     = discretisation.cells;
     double                 best      = -std::numeric_limits<double>::max();
     LocalIndex             best_cell = 0;
     dealii::Point<dim>     best_xi;
     for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
       {
-        const auto         d       = *probe.request.point - cells.vertices[cell * (dim + 1)];
-        const double      *inverse = cells.inverse(cell);
-        dealii::Point<dim> xi;
-        for (unsigned int k = 0; k < dim; ++k)
-          for (unsigned int J = 0; J < dim; ++J)
-            xi[k] += inverse[k * dim + J] * d[J];
-        const auto   lambda = barycentric(xi);
-        const double inside = *std::min_element(lambda.begin(), lambda.end());
+        if (!may_hold(cells, cell, *probe.request.point))
+          continue;
+        const auto   xi     = reference_point(cells, cell, *probe.request.point);
+        const double inside = depth(cells.kind, xi);
         if (inside > best)
           {
             best      = inside;
@@ -175,11 +216,12 @@ namespace isochor
       }
     else
       {
-        const auto quadrature = simplex_quadrature<dim>(discretisation.x_shape.degree());
+        const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.volume_degree());
+        const GeometryTable<dim> geometry(cells, quadrature.get_points());
         for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
           for (unsigned int q = 0; q < quadrature.size(); ++q)
             {
-              const double weight = cells.determinant[cell] * quadrature.weight(q);
+              const double weight = geometry.determinant(cell, q) * quadrature.weight(q);
               measure += weight;
               for (unsigned int a = 0; a < cells.n_x; ++a)
                 for (unsigned int c = 0; c < dim; ++c)

@@ -1,7 +1,6 @@
-#include <isochor/element/simplex_quadrature.h>
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/measure/probes.h>
 
-#include <array>
 #include <cmath>
 
 namespace isochor
@@ -9,9 +8,13 @@ namespace isochor
   template <int dim>
   double deformed_volume(const Discretisation<dim> &discretisation, const Vector &state)
   {
-    const CellTables<dim>      &cells = discretisation.cells;
-    const LagrangeSimplex<dim> &shape = discretisation.x_shape;
-    const auto quadrature = simplex_quadrature<dim>(std::max(1u, dim * (shape.degree() - 1)));
+    const CellTables<dim>     &cells = discretisation.cells;
+    const ShapeFunctions<dim> &shape = discretisation.x_shape;
+    // det dx / dxi is of degree d (k - 1) on simplices, d k - 1 per coordinate on hypercubes.
+    const unsigned int       k      = std::max(shape.degree(), cells.geometry_shape->degree());
+    const unsigned int       degree = cells.kind == CellKind::simplex ? dim * (k - 1) : dim * k - 1;
+    const auto               quadrature = cell_quadrature<dim>(cells.kind, std::max(1u, degree));
+    const GeometryTable<dim> geometry(cells, quadrature.get_points());
 
     // gradients[q * n_x + a]
     std::vector<dealii::Tensor<1, dim>> gradients;
@@ -23,12 +26,7 @@ namespace isochor
     for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
-          // dx / dxi of the deformed cell
-          dealii::Tensor<2, dim> map;
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int k = 0; k < dim; ++k)
-              map[d][k] = cells.vertices[cell * (dim + 1) + k + 1][d]
-                          - cells.vertices[cell * (dim + 1)][d];
+          dealii::Tensor<2, dim> map = geometry.map(cell, q).jacobian; // dx / dxi
           for (unsigned int a = 0; a < cells.n_x; ++a)
             for (unsigned int d = 0; d < dim; ++d)
               map[d] += state.local_element(cells.x[cell * cells.n_x + a] + d)
@@ -38,74 +36,139 @@ namespace isochor
     return dealii::Utilities::MPI::sum(volume, discretisation.communicator());
   }
 
+  namespace
+  {
+    /// The pressure of a cell at quadrature points, and its smoothed companion.
+    template <int dim>
+    class Smoother
+    {
+    public:
+      explicit Smoother(const Discretisation<dim> &discretisation)
+        : discretisation(discretisation)
+        , cells(discretisation.cells)
+        , is_discontinuous(discretisation.element.has_discontinuous_pressure())
+        , linear(make_shape_functions<dim>(cells.kind, {Family::lagrange, 1}))
+        , smooth_shape(is_discontinuous ? *linear : discretisation.p_shape)
+        , n_s(smooth_shape.n_nodes())
+        , quadrature(cell_quadrature<dim>(
+              cells.kind,
+              std::max(discretisation.quadrature_degree(), 2 * discretisation.p_shape.degree())))
+        , geometry(cells, quadrature.get_points())
+        , average(discretisation.make_vector())
+      {
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            for (unsigned int j = 0; j < cells.n_p; ++j)
+              p_value.push_back(discretisation.p_shape.value(j, quadrature.point(q)));
+            for (unsigned int j = 0; j < n_s; ++j)
+              s_value.push_back(smooth_shape.value(j, quadrature.point(q)));
+          }
+      }
+
+      /// Average the means of the cells around each node; returns the mean over the body and the
+      /// body's volume.
+      std::pair<double, double> average_means(const Vector &state)
+      {
+        Vector weight(average);
+        double integral = 0, volume = 0;
+        for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
+          {
+            double of_cell = 0, cell_volume = 0;
+            for (unsigned int q = 0; q < quadrature.size(); ++q)
+              {
+                of_cell += dV(cell, q) * pressure(state, cell, q);
+                cell_volume += dV(cell, q);
+              }
+            for (unsigned int j = 0; j < n_s; ++j)
+              {
+                average.local_element(place(cell, j)) += of_cell;
+                weight.local_element(place(cell, j)) += cell_volume;
+              }
+            if (cell < cells.n_owned)
+              {
+                integral += of_cell;
+                volume += cell_volume;
+              }
+          }
+        average.zero_out_ghost_values();
+        for (LocalIndex i = 0; i < average.locally_owned_size(); ++i)
+          if (weight.local_element(i) > 0)
+            average.local_element(i) /= weight.local_element(i);
+        average.update_ghost_values();
+
+        const MPI_Comm communicator = discretisation.communicator();
+        volume                      = dealii::Utilities::MPI::sum(volume, communicator);
+        return {dealii::Utilities::MPI::sum(integral, communicator) / volume, volume};
+      }
+
+      double dV(const std::size_t cell, const unsigned int q) const
+      {
+        return quadrature.weight(q) * geometry.determinant(cell, q);
+      }
+
+      double pressure(const Vector &state, const std::size_t cell, const unsigned int q) const
+      {
+        double p = 0;
+        for (unsigned int j = 0; j < cells.n_p; ++j)
+          p += p_value[q * cells.n_p + j] * state.local_element(cells.p[cell * cells.n_p + j]);
+        return p;
+      }
+
+      double smoothed(const std::size_t cell, const unsigned int q) const
+      {
+        double p = 0;
+        for (unsigned int j = 0; j < n_s; ++j)
+          p += s_value[q * n_s + j] * average.local_element(place(cell, j));
+        return p;
+      }
+
+      unsigned int n_points() const
+      {
+        return quadrature.size();
+      }
+
+    private:
+      /// Where the average of a node is kept: with its pressure, or, if the pressure has no
+      /// continuous nodes, with the first displacement component of a vertex.
+      LocalIndex place(const std::size_t cell, const unsigned int j) const
+      {
+        return is_discontinuous ? cells.x[cell * cells.n_x + j] : cells.p[cell * cells.n_p + j];
+      }
+
+      const Discretisation<dim>                       &discretisation;
+      const CellTables<dim>                           &cells;
+      const bool                                       is_discontinuous;
+      const std::unique_ptr<const ShapeFunctions<dim>> linear;
+      const ShapeFunctions<dim>                       &smooth_shape;
+      const unsigned int                               n_s;
+      const dealii::Quadrature<dim>                    quadrature;
+      const GeometryTable<dim>                         geometry;
+      std::vector<double>                              p_value, s_value;
+      Vector                                           average;
+    };
+  } // namespace
+
   template <int dim>
   std::optional<double> pressure_oscillation(const Discretisation<dim> &discretisation,
                                              const Vector              &state)
   {
     if (discretisation.n_pressures == 0)
       return {};
-    const CellTables<dim>      &cells      = discretisation.cells;
-    const LagrangeSimplex<dim> &shape      = discretisation.p_shape;
-    const auto                  quadrature = simplex_quadrature<dim>(2 * shape.degree());
-    const unsigned int          n_p        = cells.n_p;
-
-    std::vector<double> value; // [q * n_p + j]
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      for (unsigned int j = 0; j < n_p; ++j)
-        value.push_back(shape.value(j, quadrature.point(q)));
-
-    // Nodal average of the means of the cells around each node.
-    Vector       average  = discretisation.make_vector(), weight(average);
-    double       integral = 0, volume = 0;
-    const double total_weight = dim == 2 ? 0.5 : 1. / 6;
-    for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
-      {
-        double mean = 0;
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          for (unsigned int j = 0; j < n_p; ++j)
-            mean += quadrature.weight(q) * value[q * n_p + j]
-                    * state.local_element(cells.p[cell * n_p + j]);
-        mean /= total_weight;
-        const double cell_volume = total_weight * cells.determinant[cell];
-        for (unsigned int j = 0; j < n_p; ++j)
-          {
-            average.local_element(cells.p[cell * n_p + j]) += cell_volume * mean;
-            weight.local_element(cells.p[cell * n_p + j]) += cell_volume;
-          }
-        if (cell < cells.n_owned)
-          {
-            integral += cell_volume * mean;
-            volume += cell_volume;
-          }
-      }
-    average.zero_out_ghost_values();
-    for (LocalIndex i = discretisation.n_owned_displacements; i < average.locally_owned_size(); ++i)
-      average.local_element(i) /= weight.local_element(i);
-    average.update_ghost_values();
-
-    const MPI_Comm communicator = discretisation.communicator();
-    const double   total_volume = dealii::Utilities::MPI::sum(volume, communicator);
-    const double   mean = dealii::Utilities::MPI::sum(integral, communicator) / total_volume;
+    Smoother<dim> smoother(discretisation);
+    const auto [mean, volume] = smoother.average_means(state);
 
     double rough = 0, whole = 0;
-    for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
+    for (std::size_t cell = 0; cell < discretisation.cells.n_owned; ++cell)
+      for (unsigned int q = 0; q < smoother.n_points(); ++q)
         {
-          double p = 0, smooth = 0;
-          for (unsigned int j = 0; j < n_p; ++j)
-            {
-              p += value[q * n_p + j] * state.local_element(cells.p[cell * n_p + j]);
-              smooth += value[q * n_p + j] * average.local_element(cells.p[cell * n_p + j]);
-            }
-          const double at = quadrature.weight(q) * cells.determinant[cell];
-          rough += at * (p - smooth) * (p - smooth);
-          whole += at * (p - mean) * (p - mean);
+          const double p = smoother.pressure(state, cell, q);
+          rough += smoother.dV(cell, q) * std::pow(p - smoother.smoothed(cell, q), 2);
+          whole += smoother.dV(cell, q) * std::pow(p - mean, 2);
         }
-    rough = dealii::Utilities::MPI::sum(rough, communicator);
-    whole = dealii::Utilities::MPI::sum(whole, communicator);
+    rough = dealii::Utilities::MPI::sum(rough, discretisation.communicator());
+    whole = dealii::Utilities::MPI::sum(whole, discretisation.communicator());
     // A constant pressure: what is left is noise over noise.
-    const double constant = mean * mean * total_volume;
-    if (!(whole > 1e-10 * constant))
+    if (!(whole > 1e-10 * mean * mean * volume))
       return {};
     return std::sqrt(rough / whole);
   }

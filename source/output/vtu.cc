@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace isochor
@@ -15,16 +16,18 @@ namespace isochor
     using Patch = dealii::DataOutBase::Patch<dim, dim>;
 
     std::vector<Patch> patches;
+    bool               higher_order = false; ///< quadratic hypercubes
 
     /// Texts of the files.
     std::string vtu(const double load, const unsigned int number)
     {
       using Flags = dealii::DataOutBase::VtkFlags;
       Flags flags;
-      flags.time                = load;
-      flags.cycle               = number;
-      flags.print_date_and_time = false; // a .vtu depends on the run alone
-      flags.compression_level   = Flags::best_speed;
+      flags.time                     = load;
+      flags.cycle                    = number;
+      flags.print_date_and_time      = false; // a .vtu depends on the run alone
+      flags.compression_level        = Flags::best_speed;
+      flags.write_higher_order_cells = higher_order;
       flags.physical_units
           = {{"displacement", "m"}, {"pressure", "Pa"}, {"von Mises stress [Pa]", "Pa"}};
       this->set_flags(flags);
@@ -63,6 +66,28 @@ namespace isochor
     }
   };
 
+  namespace
+  {
+    /// In the order in which deal.II writes them: of simplices as a DoFHandler numbers them, and as
+    /// VTK does; of hypercubes along the first coordinate first.
+    template <int dim>
+    std::vector<dealii::Point<dim>> output_points(const CellKind kind, const unsigned int degree)
+    {
+      const auto nodes = make_shape_functions<dim>(kind, {Family::lagrange, degree});
+      std::vector<dealii::Point<dim>> points;
+      for (unsigned int i = 0; i < nodes->n_nodes(); ++i)
+        points.push_back(nodes->node(i));
+      if (kind == CellKind::hypercube)
+        std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) {
+          for (unsigned int d = dim; d-- > 0;)
+            if (a[d] != b[d])
+              return a[d] < b[d];
+          return false;
+        });
+      return points;
+    }
+  } // namespace
+
   template <int dim>
   VtuSeries<dim>::VtuSeries(const Discretisation<dim> &discretisation,
                             const Material            &material,
@@ -74,25 +99,24 @@ namespace isochor
     , n_cells(dealii::Utilities::MPI::all_gather(discretisation.communicator(),
                                                  discretisation.cells.n_owned))
   {
-    // deal.II orders the edges of a simplex as VTK does. Cubics are shown as quadratics.
-    const unsigned int         degree = std::min(2u, discretisation.x_shape.degree());
-    const LagrangeSimplex<dim> nodes(degree);
-
-    std::vector<dealii::Point<dim>> reference_points;
-    for (unsigned int i = 0; i < nodes.n_nodes(); ++i)
-      reference_points.push_back(nodes.node(i));
-    points = fields.tabulate(reference_points);
+    // Cubics and bubbles are shown as quadratics and linears.
+    const CellTables<dim> &cells  = discretisation.cells;
+    const unsigned int     degree = std::min(
+        2u, std::max(discretisation.element.displacement.degree, cells.geometry_shape->degree()));
+    const auto reference_points = output_points<dim>(cells.kind, degree);
+    points                      = fields.tabulate(reference_points);
+    writer->higher_order        = cells.kind == CellKind::hypercube && degree == 2;
 
     writer->patches.resize(discretisation.cells.n_owned);
     for (unsigned int cell = 0; cell < discretisation.cells.n_owned; ++cell)
       {
         auto &patch                = writer->patches[cell];
-        patch.reference_cell       = dealii::ReferenceCells::get_simplex<dim>();
+        patch.reference_cell       = reference_cell<dim>(cells.kind);
         patch.patch_index          = cell;
         patch.n_subdivisions       = degree;
         patch.points_are_available = true; // or deal.II places no midpoints
-        for (unsigned int v = 0; v <= dim; ++v)
-          patch.vertices[v] = discretisation.cells.vertices[cell * (dim + 1) + v];
+        for (unsigned int v = 0; v < n_vertices(cells.kind, dim); ++v)
+          patch.vertices[v] = cells.vertex(cell, v);
         patch.data.reinit(dim + 3 + dim, points.size());
         for (unsigned int i = 0; i < points.size(); ++i)
           {

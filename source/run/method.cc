@@ -1,16 +1,114 @@
+#include <isochor/core/patterns.h>
+#include <isochor/core/text.h>
 #include <isochor/run/method.h>
 
 namespace isochor
 {
+  namespace
+  {
+    constexpr const char *consistent = "consistent", *lumped = "lumped";
+
+    bool has_linear_pressure(const Element &element)
+    {
+      return element.pressure && element.pressure->family == Family::lagrange
+             && element.pressure->degree == 1;
+    }
+
+    void check_element(const Element &element, const Material &material)
+    {
+      const std::string name(element.name);
+      const auto [mu, kappa] = moduli(
+          material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
+      if (!element.is_mixed() && !std::isfinite(kappa))
+        throw UserError("Method/Element: " + name
+                        + " has no pressure and cannot compute Scene/Poisson ratio = 0.5; choose a "
+                          "mixed element ("
+                        + listed(element_names([&](const Element &other) {
+                            return other.is_mixed() && other.kind == element.kind;
+                          }))
+                        + ") or a Poisson ratio below 0.5, knowing that it locks near 0.5");
+      if (element.is_mixed() && !(kappa > 0))
+        throw UserError("Method/Element: " + name
+                        + " needs a positive volumetric modulus, which this Poisson ratio and "
+                          "Scene/Volumetric modulus do not give; choose a displacement element ("
+                        + listed(element_names([&](const Element &other) {
+                            return !other.is_mixed() && other.kind == element.kind;
+                          }))
+                        + ") or a larger Poisson ratio");
+    }
+
+    void check_condensation(const Method &method, const Material &material)
+    {
+      const Element    &element = method.element;
+      const std::string name(element.name);
+      const auto        legal
+          = [](const Element &other) { return has_linear_pressure(other) && !other.is_stabilised; };
+      const std::string known = listed(element_names(legal));
+      if (method.compliance.lumped && !legal(element))
+        throw UserError("Method/Compliance matrix: " + name
+                        + " has no lumped compliance matrix (it needs a continuous linear pressure "
+                          "without stabilisation); choose consistent, or an element among "
+                        + known);
+      if (method.linear.condensation == Condensation::pressure)
+        {
+          if (!legal(element))
+            throw UserError("Method/Condensation: 'pressure' is for a continuous linear pressure "
+                            "without stabilisation, which "
+                            + name + " has not; choose automatic, or an element among " + known);
+          if (!method.compliance.lumped)
+            throw UserError("Method/Condensation: 'pressure' needs a diagonal compliance matrix; "
+                            "set Method/Compliance matrix = lumped, or choose automatic");
+          const auto [mu, kappa] = moduli(
+              material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
+          if (!std::isfinite(kappa))
+            throw UserError(
+                "Method/Condensation: 'pressure' divides by 1 / kappa, which is zero at "
+                "Scene/Poisson ratio = 0.5; choose automatic or none, or a Poisson "
+                "ratio below 0.5");
+        }
+      if (method.linear.condensation == Condensation::cells && !element.has_bubble()
+          && !element.has_discontinuous_pressure())
+        throw UserError("Method/Condensation: 'cells' has nothing to eliminate in " + name
+                        + "; choose automatic or none, or an element with a bubble or a "
+                          "discontinuous pressure ("
+                        + listed(element_names([](const Element &other) {
+                            return other.has_bubble() || other.has_discontinuous_pressure();
+                          }))
+                        + ")");
+    }
+  } // namespace
+
   void Method::declare(dealii::ParameterHandler &prm)
   {
+    const ComplianceOptions compliance;
     prm.enter_subsection("Method");
-    prm.declare_entry("Element",
-                      "P1-P1",
-                      dealii::Patterns::Selection(element_selection()),
-                      "Finite element: displacement, then pressure. P1, P2, P3 are displacement "
-                      "elements (Poisson ratio below 0.5; P1 locks); P1-P1, P2-P1, P3-P2 are "
-                      "mixed.");
+    prm.declare_entry(
+        "Element",
+        "P1-P1",
+        dealii::Patterns::Selection(element_selection()),
+        "Finite element: displacement, then pressure. P: triangles, tetrahedra; Q: "
+        "quadrilaterals, hexahedra. P1, P2, P3, Q1, Q2 are displacement elements "
+        "(Poisson ratio below 0.5; P1 locks); the others are mixed. P0, and P1 behind "
+        "Q2: discontinuous pressure. MINI: P1 and a bubble, with P1. P1-P1s: P1-P1 "
+        "with a stabilised pressure.");
+    prm.declare_entry("Stabilisation",
+                      to_text(compliance.stabilisation),
+                      NumberPattern::above(0),
+                      "P1-P1s: scale s of its pressure projection s / mu int (p - P0 p)(q - P0 q), "
+                      "greater than 0. No unit.");
+    prm.declare_entry("Compliance matrix",
+                      consistent,
+                      dealii::Patterns::Selection(std::string(consistent) + "|" + lumped),
+                      "C = int N_p N_q / kappa, or the diagonal matrix of its row sums (lumped; "
+                      "continuous linear pressures).");
+    prm.declare_entry("Condensation",
+                      condensation_names.name(Condensation::automatic),
+                      dealii::Patterns::Selection(condensation_names.selection()),
+                      "Unknowns that are eliminated before the linear solver; the result is the "
+                      "same. cells: bubbles and, at a Poisson ratio below 0.5, discontinuous "
+                      "pressures, cell by cell. pressure: a continuous pressure with the lumped "
+                      "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
+                      "there is something to eliminate.");
     prm.declare_entry("Linear solver",
                       "MUMPS",
                       dealii::Patterns::Selection(linear_solver_names.selection()),
@@ -24,10 +122,14 @@ namespace isochor
   Method Method::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Method");
-    Method method{find_element(prm.get("Element"), "Method/Element"),
-                  linear_solver_names.value(prm.get("Linear solver"), "Method/Linear solver"),
-                  {},
-                  {}};
+    Method method{find_element(prm.get("Element"), "Method/Element"), {}, {}, {}, {}};
+    method.compliance.lumped = prm.get("Compliance matrix") == lumped;
+    method.compliance.stabilisation
+        = parse_number(prm.get("Stabilisation"), "Method/Stabilisation");
+    method.linear.solver
+        = linear_solver_names.value(prm.get("Linear solver"), "Method/Linear solver");
+    method.linear.condensation
+        = condensation_names.value(prm.get("Condensation"), "Method/Condensation");
     method.stepping.parse(prm);
     method.newton.parse(prm);
     prm.leave_subsection();
@@ -36,21 +138,9 @@ namespace isochor
 
   void check_legal(const Method &method, const Material &material, const unsigned int n_ranks)
   {
-    const std::string element(method.element.name);
-    const auto [mu, kappa]
-        = moduli(material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
-    if (!method.element.is_mixed() && !std::isfinite(kappa))
-      throw UserError("Method/Element: " + element
-                      + " has no pressure and cannot compute Scene/Poisson ratio = 0.5; choose a "
-                        "mixed element ("
-                      + listed(mixed_element_names())
-                      + ") or a Poisson ratio below 0.5, knowing that it locks near 0.5");
-    if (method.element.is_mixed() && !(kappa > 0))
-      throw UserError("Method/Element: " + element
-                      + " needs a positive volumetric modulus, which this Poisson ratio and "
-                        "Scene/Volumetric modulus do not give; choose a displacement element "
-                        "(P1, P2, P3) or a larger Poisson ratio");
-    if (method.linear_solver == LinearSolver::umfpack && n_ranks > 1)
+    check_element(method.element, material);
+    check_condensation(method, material);
+    if (method.linear.solver == LinearSolver::umfpack && n_ranks > 1)
       throw UserError("Method/Linear solver: UMFPACK runs on one rank, not on "
                       + std::to_string(n_ranks) + "; choose MUMPS");
   }

@@ -50,7 +50,7 @@ namespace isochor
             "): trust the displacements of ",
             element.name,
             ", not its pressures",
-            element.displacement_degree > *element.pressure_degree
+            element.displacement.degree > element.pressure->degree
                 ? "; refine the mesh"
                 : "; choose P2-P1 for pressures");
       return warnings;
@@ -100,8 +100,10 @@ namespace isochor
 
     std::unique_ptr<Mesh<dim>> mesh;
     {
-      const auto scope = stopwatch.measure(Phase::mesh);
-      mesh             = make_mesh<dim>(scene.mesh, communicator);
+      const auto  scope   = stopwatch.measure(Phase::mesh);
+      MeshRequest request = scene.mesh;
+      request.kind        = method.element.kind;
+      mesh                = make_mesh<dim>(request, communicator);
     }
     result.quality         = mesh->quality;
     const auto boundary_id = [&](const std::string &name, const std::string &what) {
@@ -109,9 +111,9 @@ namespace isochor
     };
 
     std::optional<Stopwatch::Scope> setup_scope(std::in_place, stopwatch, Phase::setup);
-    const Discretisation<dim>       discretisation(mesh->triangulation, method.element);
-    const Equilibrium<dim>          equilibrium(discretisation, scene, boundary_id);
-    const Probes<dim>               probes(discretisation, scene.probes, boundary_id);
+    const Discretisation<dim> discretisation(mesh->triangulation, method.element, mesh->geometry);
+    const Equilibrium<dim>    equilibrium(discretisation, scene, boundary_id, method.compliance);
+    const Probes<dim>         probes(discretisation, scene.probes, boundary_id);
     setup_scope.reset();
     result.cells         = discretisation.n_cells;
     result.unknowns      = discretisation.n_unknowns();
@@ -125,7 +127,7 @@ namespace isochor
       }
     settings.before_output();
 
-    TangentSolver<dim> tangent_solver(equilibrium, method.linear_solver, stopwatch);
+    TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
     Vector             state = discretisation.make_vector(), scratch(state), reactions(state);
     state.update_ghost_values();
 

@@ -11,21 +11,55 @@ namespace isochor
     constexpr double       wanted_residual       = 1e-10;
     constexpr double       acceptable_residual   = 1e-5;
     constexpr unsigned int max_krylov_iterations = 60;
+
+    /// Groups of owned unknowns to eliminate.
+    template <int dim>
+    std::vector<CondensedSolver::Group> eliminated_groups(const Equilibrium<dim> &equilibrium,
+                                                          const Condensation      condensation)
+    {
+      const Discretisation<dim>          &discretisation = equilibrium.discretisation();
+      std::vector<CondensedSolver::Group> groups;
+      if (condensation == Condensation::pressure)
+        for (LocalIndex i = discretisation.n_owned_displacements;
+             i < discretisation.cells.n_owned_unknowns;
+             ++i)
+          groups.emplace_back(i, 1);
+      else if (condensation != Condensation::none)
+        {
+          groups = discretisation.interior_displacements;
+          if (equilibrium.is_compressible())
+            groups.insert(groups.end(),
+                          discretisation.interior_pressures.begin(),
+                          discretisation.interior_pressures.end());
+        }
+      return groups;
+    }
+
+    template <int dim>
+    std::unique_ptr<DirectSolver> make_solver(const Equilibrium<dim> &equilibrium,
+                                              const LinearOptions    &options)
+    {
+      const MPI_Comm communicator = equilibrium.discretisation().communicator();
+      auto           solver       = make_direct_solver(options.solver, communicator);
+      auto           groups       = eliminated_groups(equilibrium, options.condensation);
+      if (dealii::Utilities::MPI::sum(groups.size(), communicator) == 0)
+        return solver;
+      return std::make_unique<CondensedSolver>(std::move(solver), std::move(groups));
+    }
   } // namespace
 
   template <int dim>
   TangentSolver<dim>::TangentSolver(const Equilibrium<dim> &equilibrium,
-                                    const LinearSolver      kind,
+                                    const LinearOptions    &options,
                                     Stopwatch              &stopwatch)
     : equilibrium(equilibrium)
     , stopwatch(stopwatch)
     , matrix(equilibrium.make_matrix())
-    , factors(make_direct_solver(kind, equilibrium.discretisation().communicator()))
+    , factors(make_solver(equilibrium, options))
   {
     const auto scope = stopwatch.measure(Phase::factorisation);
-    factors->analyse(matrix,
-                     equilibrium.discretisation().node_of_row,
-                     equilibrium.discretisation().n_displacement_nodes);
+    factors->analyse(
+        matrix, equilibrium.discretisation().node_of_row, equilibrium.discretisation().n_nodes);
   }
 
   template <int dim>

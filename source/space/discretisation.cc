@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace isochor
 {
@@ -26,12 +27,12 @@ namespace isochor
     class Field
     {
     public:
-      Field(const dealii::Triangulation<dim> &triangulation, const LagrangeSimplex<dim> &shape)
+      Field(const dealii::Triangulation<dim> &triangulation, const ShapeFunctions<dim> &shape)
         : shape(shape)
         , dof_handler(triangulation)
         , on_cell(shape.n_nodes())
       {
-        dof_handler.distribute_dofs(NodalElement<dim>(shape.degree()));
+        dof_handler.distribute_dofs(NodalElement<dim>(shape));
         begins.push_back(0);
         for (const auto n : dealii::Utilities::MPI::all_gather(triangulation.get_communicator(),
                                                                dof_handler.n_locally_owned_dofs()))
@@ -69,16 +70,16 @@ namespace isochor
       }
 
     private:
-      const LagrangeSimplex<dim> &shape;
-      dealii::DoFHandler<dim>     dof_handler;
-      std::vector<GlobalIndex>    begins;
-      std::vector<GlobalIndex>    on_cell;
+      const ShapeFunctions<dim> &shape;
+      dealii::DoFHandler<dim>    dof_handler;
+      std::vector<GlobalIndex>   begins;
+      std::vector<GlobalIndex>   on_cell;
     };
 
     /// For each pressure node of the reference cell the displacement node nearest to it.
     template <int dim>
-    std::vector<unsigned int> nearest_nodes(const LagrangeSimplex<dim> &p_shape,
-                                            const LagrangeSimplex<dim> &x_shape)
+    std::vector<unsigned int> nearest_nodes(const ShapeFunctions<dim> &p_shape,
+                                            const ShapeFunctions<dim> &x_shape)
     {
       std::vector<unsigned int> nearest;
       for (unsigned int j = 0; j < p_shape.n_nodes(); ++j)
@@ -101,40 +102,38 @@ namespace isochor
 
     template <int dim>
     void add_geometry(CellTables<dim>                                                 &cells,
+                      const GeometryNodes<dim>                                        &geometry,
                       const typename dealii::Triangulation<dim>::active_cell_iterator &cell)
     {
-      dealii::Tensor<2, dim> jacobian;
-      for (unsigned int v = 0; v <= dim; ++v)
-        cells.vertices.push_back(cell->vertex(v));
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int k = 0; k < dim; ++k)
-          jacobian[d][k] = cell->vertex(k + 1)[d] - cell->vertex(0)[d];
-      const auto inverse = dealii::invert(jacobian);
-      for (unsigned int k = 0; k < dim; ++k)
-        for (unsigned int d = 0; d < dim; ++d)
-          cells.inverse_jacobian.push_back(inverse[k][d]);
-      cells.determinant.push_back(dealii::determinant(jacobian));
+      if (geometry.order == 1)
+        for (const unsigned int v : cell->vertex_indices())
+          cells.geometry.push_back(cell->vertex(v));
+      else
+        {
+          const auto first
+              = geometry.points.begin() + std::size_t(cell->active_cell_index()) * cells.n_g;
+          cells.geometry.insert(cells.geometry.end(), first, first + cells.n_g);
+        }
+      add_cell_geometry(cells);
     }
   } // namespace
 
   template <int dim>
-  dealii::Point<dim> CellTables<dim>::position(const unsigned int        cell,
-                                               const dealii::Point<dim> &xi) const
-  {
-    const auto         lambda = barycentric(xi);
-    dealii::Point<dim> position;
-    for (unsigned int v = 0; v <= dim; ++v)
-      position += lambda[v] * vertices[cell * (dim + 1) + v];
-    return position;
-  }
-
-  template <int dim>
   Discretisation<dim>::Discretisation(const dealii::Triangulation<dim, dim> &triangulation,
-                                      const Element                         &element)
-    : element(element)
-    , x_shape(element.displacement_degree)
-    , p_shape(element.pressure_degree.value_or(0))
+                                      const Element                         &element,
+                                      const GeometryNodes<dim>              &geometry)
+    : x_functions(make_shape_functions<dim>(element.kind, element.displacement))
+    , p_functions(make_shape_functions<dim>(
+          element.kind,
+          element.pressure.value_or(FieldSpace{Family::discontinuous, 0})))
+    , element(element)
+    , x_shape(*x_functions)
+    , p_shape(*p_functions)
   {
+    if (triangulation.get_reference_cells().empty()
+        || triangulation.get_reference_cells()
+               != std::vector<dealii::ReferenceCell>{reference_cell<dim>(element.kind)})
+      throw std::logic_error("the cells of the mesh are not those of the element");
     const MPI_Comm     communicator = triangulation.get_communicator();
     const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
 
@@ -153,13 +152,30 @@ namespace isochor
     const GlobalIndex first = dim * x_field.begin(rank) + p_begin(rank);
     const GlobalIndex last  = dim * x_field.begin(rank + 1) + p_begin(rank + 1);
 
-    cells.n_x = x_shape.n_nodes();
-    cells.n_p = element.is_mixed() ? p_shape.n_nodes() : 0;
+    cells.kind = element.kind;
+    cells.n_x  = x_shape.n_nodes();
+    cells.n_p  = element.is_mixed() ? p_shape.n_nodes() : 0;
+    cells.geometry_shape
+        = make_shape_functions<dim>(element.kind, {Family::lagrange, geometry.order});
+    cells.n_g = cells.geometry_shape->n_nodes();
 
     // Global unknowns of the cells: owned cells, then ghost cells that touch an owned unknown.
     std::vector<GlobalIndex> x_global, p_global;
     node_of_row.assign(last - first, 0);
     const auto hosts = nearest_nodes(p_shape, x_shape);
+
+    // Pressures of one cell alone cannot join a displacement node that another rank may own.
+    const bool own_p_nodes
+        = element.has_discontinuous_pressure() && x_shape.n_interior_nodes() == 0;
+    // Of the first pressure of this rank, minus its number among all pressures.
+    const GlobalIndex first_p = dim * x_field.begin(rank + 1);
+
+    const auto add_interior = [&](const GlobalIndex *x, const GlobalIndex *p) {
+      if (element.has_bubble())
+        interior_displacements.emplace_back(x[cells.n_x - 1] - first, dim);
+      if (element.has_discontinuous_pressure())
+        interior_pressures.emplace_back(p[0] - first, cells.n_p);
+    };
 
     const auto add_cell = [&](const auto &cell) {
       const std::size_t x_size = x_global.size(), p_size = p_global.size();
@@ -183,17 +199,20 @@ namespace isochor
           return;
         }
 
+      if (cell->is_locally_owned())
+        add_interior(x_global.data() + x_size, p_global.data() + p_size);
       for (unsigned int j = 0; j < cells.n_p; ++j)
         {
           const GlobalIndex row = p_global[p_size + j];
           if (row >= first && row < last)
-            node_of_row[row - first] = x_nodes[hosts[j]];
+            node_of_row[row - first]
+                = own_p_nodes ? x_field.n_nodes() + (row - first_p) / cells.n_p : x_nodes[hosts[j]];
         }
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())
           boundary_faces.push_back(
               {cells.n_cells, face, cell->face(face)->boundary_id(), cell->is_locally_owned()});
-      add_geometry(cells, cell);
+      add_geometry(cells, geometry, cell);
       ++cells.n_cells;
     };
 
@@ -221,8 +240,9 @@ namespace isochor
     std::sort(ghosts.begin(), ghosts.end());
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
 
-    n_displacement_nodes  = x_field.n_nodes();
-    n_pressures           = p_field ? p_field->n_nodes() : 0;
+    n_displacement_nodes = x_field.n_nodes();
+    n_nodes     = n_displacement_nodes + (own_p_nodes ? p_field->n_nodes() / cells.n_p : 0);
+    n_pressures = p_field ? p_field->n_nodes() : 0;
     n_owned_displacements = dim * (x_field.begin(rank + 1) - x_field.begin(rank));
     n_cells               = dealii::Utilities::MPI::sum(GlobalIndex(cells.n_owned), communicator);
 
@@ -245,8 +265,16 @@ namespace isochor
     std::transform(p_global.begin(), p_global.end(), cells.p.begin(), to_local);
   }
 
-  template struct CellTables<2>;
-  template struct CellTables<3>;
+  template <int dim>
+  unsigned int Discretisation<dim>::volume_degree() const
+  {
+    if (cells.all_affine)
+      return std::max(1u, x_shape.degree());
+    // The determinant of the map is of degree d (g - 1) on simplices, d g - 1 on hypercubes.
+    const unsigned int g = cells.geometry_shape->degree();
+    return x_shape.degree() + (element.kind == CellKind::simplex ? dim * (g - 1) : dim * g - 1);
+  }
+
   template class Discretisation<2>;
   template class Discretisation<3>;
 } // namespace isochor

@@ -1,16 +1,12 @@
-#include <isochor/element/simplex_quadrature.h>
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/space/face_tables.h>
+
+#include <algorithm>
 
 namespace isochor
 {
   namespace
   {
-    template <int dim>
-    dealii::Point<dim> vertex(const unsigned int v)
-    {
-      return v == 0 ? dealii::Point<dim>() : dealii::Point<dim>::unit_vector(v - 1);
-    }
-
     /// t_1 x t_2 in 3D, t rotated clockwise in 2D.
     template <int dim>
     dealii::Tensor<1, dim> normal_of(const std::array<dealii::Tensor<1, dim>, dim - 1> &tangents)
@@ -20,33 +16,58 @@ namespace isochor
       else
         return dealii::cross_product_3d(tangents[0], tangents[1]);
     }
+
+    /// Values and derivatives along @p tangents of the functions of @p nodes at @p xi.
+    template <int dim>
+    void tabulate(const ShapeFunctions<dim>                         &shape,
+                  const std::vector<unsigned int>                   &nodes,
+                  const dealii::Point<dim>                          &xi,
+                  const std::array<dealii::Tensor<1, dim>, dim - 1> &tangents,
+                  std::vector<double>                               &value,
+                  std::vector<std::array<double, dim - 1>>          &derivative)
+    {
+      for (const unsigned int a : nodes)
+        {
+          value.push_back(shape.value(a, xi));
+          const auto gradient = shape.gradient(a, xi);
+          derivative.emplace_back();
+          for (unsigned int m = 0; m + 1 < dim; ++m)
+            derivative.back()[m] = gradient * tangents[m];
+        }
+    }
   } // namespace
 
   template <int dim>
-  unsigned int FaceTables<dim>::exact_degree(const LagrangeSimplex<dim> &x_shape)
+  unsigned int FaceTables<dim>::exact_degree(const Discretisation<dim> &discretisation)
   {
-    const unsigned int k = x_shape.degree();
-    return k + (dim - 1) * (k - 1) + 1;
+    const unsigned int k        = discretisation.x_shape.trace_degree();
+    const unsigned int position = std::max(
+        k, discretisation.cells.all_affine ? 1 : discretisation.cells.geometry_shape->degree());
+    return k + (dim - 1) * (position - 1) + 1;
   }
 
   template <int dim>
-  FaceTables<dim>::FaceTables(const LagrangeSimplex<dim> &x_shape, const unsigned int degree)
+  FaceTables<dim>::FaceTables(const Discretisation<dim> &discretisation, const unsigned int degree)
   {
-    const auto quadrature = simplex_quadrature<dim - 1>(degree);
-    for (unsigned int face = 0; face <= dim; ++face)
+    const CellKind kind           = discretisation.element.kind;
+    const auto    &x_shape        = discretisation.x_shape;
+    const auto    &geometry_shape = *discretisation.cells.geometry_shape;
+    const auto     quadrature     = cell_quadrature<dim - 1>(kind, degree);
+
+    dealii::Point<dim> centre;
+    for (unsigned int v = 0; v < n_vertices(kind, dim); ++v)
+      centre += reference_vertex<dim>(kind, v) / n_vertices(kind, dim);
+
+    const auto &faces = reference_faces<dim>(kind);
+    for (unsigned int face = 0; face < faces.size(); ++face)
       {
         FaceTable<dim> table;
-        table.nodes         = x_shape.nodes_on_face(face);
-        const auto vertices = face_vertices<dim>(face);
-        const auto origin   = vertex<dim>(vertices[0]);
+        table.nodes          = x_shape.nodes_on_face(face);
+        table.geometry_nodes = geometry_shape.nodes_on_face(face);
+        const auto origin    = reference_vertex<dim>(kind, faces[face][0]);
         for (unsigned int m = 0; m + 1 < dim; ++m)
-          table.tangents[m] = vertex<dim>(vertices[m + 1]) - origin;
-
-        // The vertex that is not on the face lies on its inner side.
-        unsigned int opposite = (dim + 1) * dim / 2;
-        for (const unsigned int v : vertices)
-          opposite -= v;
-        table.sign = normal_of<dim>(table.tangents) * (origin - vertex<dim>(opposite)) > 0 ? 1 : -1;
+          table.tangents[m] = reference_vertex<dim>(kind, faces[face][m + 1]) - origin;
+        table.sign = normal_of<dim>(table.tangents) * (origin - centre) > 0 ? 1 : -1;
 
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           {
@@ -55,15 +76,13 @@ namespace isochor
             for (unsigned int m = 0; m + 1 < dim; ++m)
               at.xi += quadrature.point(q)[m] * table.tangents[m];
             at.weight = quadrature.weight(q);
-            for (const unsigned int a : table.nodes)
-              {
-                at.value.push_back(x_shape.value(a, at.xi));
-                const auto                  gradient = x_shape.gradient(a, at.xi);
-                std::array<double, dim - 1> derivative;
-                for (unsigned int m = 0; m + 1 < dim; ++m)
-                  derivative[m] = gradient * table.tangents[m];
-                at.derivative.push_back(derivative);
-              }
+            tabulate(x_shape, table.nodes, at.xi, table.tangents, at.value, at.derivative);
+            tabulate(geometry_shape,
+                     table.geometry_nodes,
+                     at.xi,
+                     table.tangents,
+                     at.geometry_value,
+                     at.geometry_derivative);
             table.points.push_back(std::move(at));
           }
         tables.push_back(std::move(table));
@@ -78,13 +97,13 @@ namespace isochor
                                const double                      *values)
   {
     FacePoint<dim> point;
-    point.reference_position = cells.position(face.cell, at.xi);
-
-    const auto vertices = face_vertices<dim>(face.face);
-    const auto corner
-        = [&](const unsigned int v) { return cells.vertices[face.cell * (dim + 1) + vertices[v]]; };
-    for (unsigned int m = 0; m + 1 < dim; ++m)
-      point.tangents[m] = corner(m + 1) - corner(0);
+    for (unsigned int n = 0; n < table.geometry_nodes.size(); ++n)
+      {
+        const auto &X = cells.geometry[face.cell * cells.n_g + table.geometry_nodes[n]];
+        point.reference_position += at.geometry_value[n] * X;
+        for (unsigned int m = 0; m + 1 < dim; ++m)
+          point.tangents[m] += at.geometry_derivative[n][m] * X;
+      }
     point.reference_area = normal_of<dim>(point.tangents).norm();
 
     for (unsigned int n = 0; values != nullptr && n < table.nodes.size(); ++n)

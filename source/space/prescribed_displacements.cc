@@ -75,8 +75,8 @@ namespace isochor
     // Two supports may meet at an edge of the body, if they agree: up to the digits that formulas
     // lose, and up to the rounding of a zero where a formula ends in a difference of positions.
     double extent = 0;
-    for (const auto &vertex : cells.vertices)
-      extent = std::max(extent, vertex.distance(cells.vertices.front()));
+    for (const auto &point : cells.geometry)
+      extent = std::max(extent, point.distance(cells.geometry.front()));
     std::vector<Entry> unique;
     for (const Entry &entry : entries)
       if (unique.empty() || unique.back().unknown != entry.unknown)

@@ -3,20 +3,20 @@
 // A deal.II finite element that only says where its nodes sit: one, two, ... on each vertex,
 // edge, face, cell. A DoFHandler needs no more to number a field.
 
-#include <isochor/element/lagrange_simplex.h>
+#include <isochor/element/shape_functions.h>
 
 #include <deal.II/fe/fe.h>
 
 namespace isochor
 {
-  /// Shape functions live in LagrangeSimplex and are evaluated from reference tables; FEValues
+  /// Shape functions live in ShapeFunctions and are evaluated from reference tables; FEValues
   /// throws. (deal.II 9.4.1's FE_SimplexP stops at degree 2, and its FESystem of elements with
   /// DoFs inside faces is broken.)
   template <int dim>
   class NodalElement : public dealii::FiniteElement<dim>
   {
   public:
-    explicit NodalElement(unsigned int degree);
+    explicit NodalElement(const ShapeFunctions<dim> &shape);
 
     std::unique_ptr<dealii::FiniteElement<dim>> clone() const override;
     std::string                                 get_name() const override;
@@ -50,7 +50,5 @@ namespace isochor
                                                          const MappedData &,
                                                          const InternalData &,
                                                          ShapeData &) const override;
-
-    unsigned int degree_;
   };
 } // namespace isochor

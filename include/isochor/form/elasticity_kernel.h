@@ -16,11 +16,12 @@ namespace isochor
     add(const ElasticityData<dim> &data, const Vector &state, const Target &target) const = 0;
   };
 
-  /// P1 and P1-P1: one quadrature point, exact because J is constant on a cell.
+  /// P1, P1-P1, P1-P0 on affine cells: one quadrature point, exact because J is constant on a cell.
+  /// @p n_p: pressure nodes per cell, 0, 1 or dim + 1.
   template <int dim>
-  std::unique_ptr<const typename Elasticity<dim>::Kernel> make_linear_kernel(bool mixed);
+  std::unique_ptr<const typename Elasticity<dim>::Kernel> make_linear_kernel(unsigned int n_p);
 
-  /// Any order.
+  /// Any element on any cells.
   template <int dim>
   std::unique_ptr<const typename Elasticity<dim>::Kernel>
   make_quadrature_kernel(const Discretisation<dim> &discretisation);

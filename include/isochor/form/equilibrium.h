@@ -3,7 +3,7 @@
 // The discrete equilibrium of a scene: all terms of the Lagrangian together, and norms of its
 // residual that mean the same in millimetres and in metres.
 
-#include <isochor/form/term.h>
+#include <isochor/form/elasticity.h>
 #include <isochor/scene/scene.h>
 #include <isochor/space/matrix_pattern.h>
 #include <isochor/space/prescribed_displacements.h>
@@ -35,7 +35,8 @@ namespace isochor
     /// Collective. @p discretisation must outlive this.
     Equilibrium(const Discretisation<dim> &discretisation,
                 const Scene<dim>          &scene,
-                const BoundaryId          &boundary_id);
+                const BoundaryId          &boundary_id,
+                const ComplianceOptions   &compliance = {});
 
     /// residual = dL/d(u, p) at @p state (ghosts are updated) and load factor @p load, with
     /// zeros at the prescribed unknowns; their share, the reactions, goes to @p reactions if
@@ -49,6 +50,11 @@ namespace isochor
     const PrescribedDisplacements<dim> &prescribed() const
     {
       return prescribed_;
+    }
+    /// Is kappa finite, and the compliance matrix not zero?
+    bool is_compressible() const
+    {
+      return is_compressible_;
     }
     const Discretisation<dim> &discretisation() const
     {
@@ -67,6 +73,7 @@ namespace isochor
     CellOffsets                        offsets;
     std::unique_ptr<Term>              internal;
     std::vector<std::unique_ptr<Term>> loads;
+    bool                               is_compressible_ = true;
     double                             volume_scale    = 0; ///< |int N_p|
     double                             stiffness_scale = 0; ///< |diagonal of the tangent at rest|
     double                             cell_size       = 0; ///< mean over the cells, m

@@ -38,6 +38,12 @@ namespace isochor
     /// caller decides what to do about it.
     virtual void
     evaluate(const Deformation &deformation, bool with_tangent, Response &response) const = 0;
+
+    /// Is A symmetric, that is, is P the gradient of an energy?
+    virtual bool is_symmetric() const
+    {
+      return true;
+    }
   };
 
   std::unique_ptr<const DistortionalEnergy> make_distortional_energy(Energy energy, double mu);

@@ -48,9 +48,10 @@ namespace isochor
         Batch value;
       };
 
-      unsigned int        n_points;
-      std::vector<XShape> x; ///< [batch * n_x + a]
-      std::vector<PShape> p; ///< [batch * n_p + j]
+      unsigned int                              n_points;
+      std::shared_ptr<const GeometryTable<dim>> geometry;
+      std::vector<XShape>                       x; ///< [batch * n_x + a]
+      std::vector<PShape>                       p; ///< [batch * n_p + j]
     };
 
     /// @p discretisation must outlive this. Throws std::logic_error for a displacement element at

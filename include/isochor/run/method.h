@@ -2,7 +2,6 @@
 
 // How a scene is computed: element, linear solver, Newton, stepping. And where results go.
 
-#include <isochor/algebra/direct_solver.h>
 #include <isochor/element/element_table.h>
 #include <isochor/march/quasi_static.h>
 #include <isochor/scene/scene.h>
@@ -11,10 +10,11 @@ namespace isochor
 {
   struct Method
   {
-    Element         element;
-    LinearSolver    linear_solver = LinearSolver::mumps;
-    NewtonOptions   newton;
-    SteppingOptions stepping;
+    Element           element;
+    ComplianceOptions compliance;
+    LinearOptions     linear;
+    NewtonOptions     newton;
+    SteppingOptions   stepping;
 
     static void   declare(dealii::ParameterHandler &prm);
     static Method parse(dealii::ParameterHandler &prm);
@@ -30,9 +30,9 @@ namespace isochor
     every_step
   };
   inline constexpr auto vtu_output_names
-      = name_table<VtuOutput>({ { VtuOutput::none, "none" },
-                                { VtuOutput::final_state, "final" },
-                                { VtuOutput::every_step, "steps" } });
+      = name_table<VtuOutput>({{VtuOutput::none, "none"},
+                               {VtuOutput::final_state, "final"},
+                               {VtuOutput::every_step, "steps"}});
 
   struct OutputOptions
   {

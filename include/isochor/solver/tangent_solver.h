@@ -2,13 +2,33 @@
 
 // One linearisation of an equilibrium: assemble, apply supports, factor, solve, check.
 
-#include <isochor/algebra/direct_solver.h>
+#include <isochor/algebra/condensed_solver.h>
 #include <isochor/core/stopwatch.h>
 #include <isochor/form/equilibrium.h>
 #include <isochor/solver/newton.h>
 
 namespace isochor
 {
+  /// Which unknowns are eliminated before the direct solver.
+  enum class Condensation
+  {
+    automatic, ///< cells
+    none,
+    cells,   ///< bubbles and, if kappa is finite, discontinuous pressures, cell by cell
+    pressure ///< a continuous pressure with a lumped compliance matrix (equation 37)
+  };
+  inline constexpr auto condensation_names
+      = name_table<Condensation>({{Condensation::automatic, "automatic"},
+                                  {Condensation::none, "none"},
+                                  {Condensation::cells, "cells"},
+                                  {Condensation::pressure, "pressure"}});
+
+  struct LinearOptions
+  {
+    LinearSolver solver       = LinearSolver::mumps;
+    Condensation condensation = Condensation::automatic;
+  };
+
   struct LinearStatistics
   {
     unsigned int assemblies        = 0;
@@ -28,7 +48,9 @@ namespace isochor
   {
   public:
     /// Analyses the pattern. Collective. References must outlive this.
-    TangentSolver(const Equilibrium<dim> &equilibrium, LinearSolver kind, Stopwatch &stopwatch);
+    TangentSolver(const Equilibrium<dim> &equilibrium,
+                  const LinearOptions    &options,
+                  Stopwatch              &stopwatch);
 
     /// step = Newton's step at @p state: moves the prescribed unknowns to their values at @p load and
     /// solves K step = -residual for the others. Collective.

@@ -11,14 +11,11 @@
 // Cells. A rank loops over its own cells and the ghost cells that touch an unknown it owns, and
 // writes only owned rows: assembly needs no communication.
 
-#include <isochor/core/types.h>
 #include <isochor/element/element_table.h>
-#include <isochor/element/lagrange_simplex.h>
+#include <isochor/mesh/raw_mesh.h>
+#include <isochor/space/cell_tables.h>
 
 #include <deal.II/base/partitioner.h>
-#include <deal.II/base/types.h>
-
-#include <memory>
 
 namespace dealii
 {
@@ -28,38 +25,6 @@ namespace dealii
 
 namespace isochor
 {
-  /// Tables of the cells this rank computes, owned cells first.
-  template <int dim>
-  struct CellTables
-  {
-    unsigned int n_owned = 0;
-    unsigned int n_cells = 0;
-    unsigned int n_x     = 0; ///< displacement nodes per cell
-    unsigned int n_p     = 0; ///< pressure nodes per cell, 0 for displacement elements
-
-    /// [cell * n_x + a]: local index of component 0 of displacement node a; component c is at
-    /// + c. For cubics, the two nodes of an edge are already in the order of the shape functions.
-    std::vector<LocalIndex> x;
-    /// [cell * n_p + j]: local index of pressure node j.
-    std::vector<LocalIndex> p;
-    /// [(cell * dim + k) * dim + J] = d xi_k / d X_J, 1/m.
-    std::vector<double> inverse_jacobian;
-    /// det dX / d xi > 0, m^dim; the volume is this divided by dim!.
-    std::vector<double> determinant;
-    /// [cell * (dim + 1) + v]: reference positions of the vertices, m.
-    std::vector<dealii::Point<dim>> vertices;
-    /// Is the unknown's row on this rank? Shorthand for local index < n_owned_unknowns.
-    LocalIndex n_owned_unknowns = 0;
-
-    /// Reference position of a reference-cell point of a cell.
-    dealii::Point<dim> position(unsigned int cell, const dealii::Point<dim> &xi) const;
-    /// [k][J] as in inverse_jacobian.
-    const double *inverse(const unsigned int cell) const
-    {
-      return &inverse_jacobian[cell * dim * dim];
-    }
-  };
-
   struct BoundaryFace
   {
     LocalIndex                 cell; ///< index into CellTables
@@ -72,22 +37,37 @@ namespace isochor
   class Discretisation
   {
   public:
-    /// Collective. @p triangulation must outlive this object's construction only.
-    Discretisation(const dealii::Triangulation<dim, dim> &triangulation, const Element &element);
+    /// Collective. @p triangulation must outlive this object's construction only. @p geometry: by
+    /// active_cell_index(), if cells are curved. Throws std::logic_error if the cells are not of the
+    /// element's kind.
+    Discretisation(const dealii::Triangulation<dim, dim> &triangulation,
+                   const Element                         &element,
+                   const GeometryNodes<dim>              &geometry = {});
 
+  private:
+    const std::unique_ptr<const ShapeFunctions<dim>> x_functions, p_functions;
+
+  public:
     const Element              element;
-    const LagrangeSimplex<dim> x_shape;
-    /// Degree 0 for displacement elements, where it is not used.
-    const LagrangeSimplex<dim> p_shape;
+    const ShapeFunctions<dim> &x_shape;
+    /// Constant for displacement elements, where it is not used.
+    const ShapeFunctions<dim> &p_shape;
 
     CellTables<dim>           cells;
     std::vector<BoundaryFace> boundary_faces;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
-    /// Of each locally owned unknown: the global displacement node it lives on (a pressure: the
-    /// displacement node at the same place or nearest to it in the cell).
+    /// Of each locally owned unknown: the node of the elimination order that it belongs to, on the
+    /// same rank. A displacement: its own; a continuous pressure: the displacement node at the same
+    /// place or nearest to it in the cell; the pressures of one cell alone: its interior node or, if
+    /// it has none, a node of their own, numbered behind the displacement nodes.
     std::vector<GlobalIndex> node_of_row;
+    GlobalIndex              n_nodes = 0; ///< that node_of_row counts, over all ranks
+
+    /// Locally owned unknowns that couple with those of one cell only, bubbles or discontinuous
+    /// pressures: first unknown and number of each group. They may be eliminated before the others.
+    std::vector<std::pair<LocalIndex, unsigned int>> interior_displacements, interior_pressures;
 
     GlobalIndex n_displacement_nodes  = 0; ///< over all ranks
     GlobalIndex n_pressures           = 0; ///< over all ranks
@@ -102,6 +82,14 @@ namespace isochor
     {
       return partitioner->get_mpi_communicator();
     }
+    /// Quadrature degree of the cells: the element's, two more if simplices are curved.
+    unsigned int quadrature_degree() const
+    {
+      return element.quadrature_degree
+             + (element.kind == CellKind::simplex && !cells.all_affine ? 2 : 0);
+    }
+    /// Quadrature degree that integrates a displacement over the reference body exactly.
+    unsigned int volume_degree() const;
     /// A zero vector of all unknowns with ghost entries.
     Vector make_vector() const
     {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Reference tables for integrals over boundary faces, per face number of the reference simplex.
+// Reference tables for integrals over boundary faces, per face number of the reference cell.
 
 #include <isochor/space/discretisation.h>
 
@@ -8,20 +8,24 @@
 
 namespace isochor
 {
-  /// Shape functions of the displacement at the quadrature points of one face. The face is
-  /// parametrised by s in the (dim - 1)-simplex.
+  /// Shape functions of the displacement and of the geometry at the quadrature points of one face.
+  /// The face is parametrised by s in the reference cell of dimension dim - 1.
   template <int dim>
   struct FaceTable
   {
     struct At
     {
       dealii::Point<dim>  xi;     ///< in the reference cell
-      double              weight; ///< adds up to 1 / (dim - 1)!
+      double              weight; ///< adds up to the volume of the reference face
       std::vector<double> value;  ///< [n] of nodes[n]
       /// [n][m] = dN / ds_m, m < dim - 1
       std::vector<std::array<double, dim - 1>> derivative;
+      /// The same of geometry_nodes.
+      std::vector<double>                      geometry_value;
+      std::vector<std::array<double, dim - 1>> geometry_derivative;
     };
     std::vector<unsigned int>                   nodes; ///< displacement nodes on the face
+    std::vector<unsigned int>                   geometry_nodes;
     std::vector<At>                             points;
     std::array<dealii::Tensor<1, dim>, dim - 1> tangents; ///< d xi / d s_m
     double                                      sign = 1; ///< makes the normal point outward
@@ -32,15 +36,16 @@ namespace isochor
   {
   public:
     /// Exact to @p degree on the face; by default enough for pressure on cubics.
-    explicit FaceTables(const LagrangeSimplex<dim> &x_shape, unsigned int degree);
+    FaceTables(const Discretisation<dim> &discretisation, unsigned int degree);
 
     const FaceTable<dim> &operator[](const unsigned int face_no) const
     {
       return tables[face_no];
     }
 
-    /// Degree that integrates N n da of a deformed face exactly: k + (dim - 1) (k - 1) + 1.
-    static unsigned int exact_degree(const LagrangeSimplex<dim> &x_shape);
+    /// Degree that integrates N n da of a deformed face exactly: k + (dim - 1) (k - 1) + 1, k the
+    /// degree of the deformed position.
+    static unsigned int exact_degree(const Discretisation<dim> &discretisation);
 
   private:
     std::vector<FaceTable<dim>> tables;

@@ -1,0 +1,386 @@
+#pragma once
+
+// The kernel for any element, compiled for each pair of numbers of nodes: quadrature points in
+// batches of eight. Included by the files that instantiate it only.
+
+#include <isochor/element/cell_quadrature.h>
+#include <isochor/form/elasticity_kernel.h>
+#include <isochor/form/local_system.h>
+
+#include <algorithm>
+
+namespace isochor
+{
+  template <int dim, int n_x, int n_p>
+  class QuadratureKernel : public Elasticity<dim>::Kernel
+  {
+  public:
+    static constexpr bool mixed = n_p > 0;
+    using System                = LocalSystem<dim, n_x, n_p>;
+
+    explicit QuadratureKernel(const Discretisation<dim> &discretisation)
+    {
+      const CellTables<dim> &cells = discretisation.cells;
+      const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.quadrature_degree());
+      const unsigned int n_batches = (quadrature.size() + n_lanes - 1) / n_lanes;
+      points.resize(n_batches);
+      for (unsigned int k = 0; k < n_batches * n_lanes; ++k)
+        {
+          // Lanes beyond the last point repeat it with weight zero.
+          const unsigned int q    = std::min(k, quadrature.size() - 1);
+          PointBatch        &at   = points[k / n_lanes];
+          const unsigned int lane = k % n_lanes;
+          at.weight[lane]         = k < quadrature.size() ? quadrature.weight(k) : 0.;
+          for (int a = 0; a < n_x; ++a)
+            {
+              const auto gradient = discretisation.x_shape.gradient(a, quadrature.point(q));
+              for (int d = 0; d < dim; ++d)
+                at.x_gradient[a][d][lane] = gradient[d];
+            }
+          for (int j = 0; j < n_p; ++j)
+            at.p_value[j][lane] = discretisation.p_shape.value(j, quadrature.point(q));
+        }
+
+      if (!cells.all_affine)
+        for (unsigned int k = 0; k < n_batches; ++k)
+          for (unsigned int i = 0; i < cells.n_g; ++i)
+            {
+              geometry_gradients.emplace_back();
+              for (unsigned int lane = 0; lane < n_lanes; ++lane)
+                {
+                  const unsigned int q = std::min(k * n_lanes + lane, quadrature.size() - 1);
+                  const auto gradient  = cells.geometry_shape->gradient(i, quadrature.point(q));
+                  for (int d = 0; d < dim; ++d)
+                    geometry_gradients.back()[d][lane] = gradient[d];
+                }
+            }
+    }
+
+    Evaluation
+    add(const ElasticityData<dim> &data, const Vector &state, const Target &target) const override
+    {
+      const CellTables<dim> &cells        = data.discretisation.cells;
+      const double          *values       = state.begin();
+      double                *residual     = target.residual ? target.residual->begin() : nullptr;
+      const bool             with_tangent = target.tangent != nullptr;
+
+      Evaluation                evaluation;
+      auto                      system = std::make_unique<System>();
+      std::vector<PointTangent> tangents(points.size());
+      for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
+        {
+          const double value
+              = compute(data, cells, cell, values, with_tangent, tangents, *system, evaluation);
+          if (cell < cells.n_owned)
+            evaluation.value += value;
+          if (residual != nullptr)
+            system->add_residual(cells, cell, residual);
+          if (with_tangent)
+            {
+              tangent(data.energy->is_symmetric(), tangents, *system);
+              system->add_tangent(cells, cell, *target.offsets, *target.tangent);
+            }
+        }
+      return evaluation;
+    }
+
+  private:
+    /// Reference shape tables at eight quadrature points.
+    struct PointBatch
+    {
+      Batch x_gradient[n_x][dim];
+      Batch p_value[System::n_q];
+      Batch weight;
+    };
+
+    /// What the tangent needs of eight quadrature points, with the weight in it.
+    struct PointTangent
+    {
+      Batch gradient[n_x][dim];    ///< dN_a / dX
+      Batch A[dim][dim][dim][dim]; ///< weighted
+      Batch d_phi[dim][dim];       ///< Phi' dJ/dF, weighted
+    };
+
+    /// Residual of one cell, and what its tangent needs. Returns the value of the term.
+    double compute(const ElasticityData<dim> &data,
+                   const CellTables<dim>     &cells,
+                   const std::size_t          cell,
+                   const double              *values,
+                   const bool                 with_tangent,
+                   std::vector<PointTangent> &tangents,
+                   System                    &out,
+                   Evaluation                &evaluation) const
+    {
+      double u[n_x][dim], p[System::n_q];
+      for (int a = 0; a < n_x; ++a)
+        for (int c = 0; c < dim; ++c)
+          u[a][c] = values[cells.x[cell * n_x + a] + c];
+      for (int j = 0; j < n_p; ++j)
+        p[j] = values[cells.p[cell * n_p + j]];
+
+      Batch value{}, r_u[n_x][dim] = {}, r_p[System::n_q] = {};
+      Batch mass[System::n_q][System::n_q] = {}, first[System::n_q] = {}; // int N_j N_k, int N_j
+      for (std::size_t k = 0; k < points.size(); ++k)
+        {
+          const PointBatch &at     = points[k];
+          PointTangent     &keep   = tangents[k];
+          const Geometry    map    = geometry(cells, cell, k);
+          const Batch       weight = map.determinant * at.weight;
+
+          for (int a = 0; a < n_x; ++a)
+            for (int J = 0; J < dim; ++J)
+              {
+                keep.gradient[a][J] = at.x_gradient[a][0] * map.inverse[0][J];
+                for (int d = 1; d < dim; ++d)
+                  keep.gradient[a][J] += at.x_gradient[a][d] * map.inverse[d][J];
+              }
+
+          Deformation deformation;
+          for (int i = 0; i < 3; ++i)
+            for (int J = 0; J < 3; ++J)
+              deformation.F[3 * i + J] = batch(i == J ? 1. : 0.);
+          for (int a = 0; a < n_x; ++a)
+            for (int i = 0; i < dim; ++i)
+              for (int J = 0; J < dim; ++J)
+                deformation.F[3 * i + J] += u[a][i] * keep.gradient[a][J];
+          deformation.complete();
+          lower(evaluation.min_jacobian, isochor::min(deformation.J));
+
+          Response response;
+          data.energy->evaluate(deformation, with_tangent, response);
+          const VolumetricResponse volumetric = evaluate(data.volumetric_strain, deformation.J);
+          Batch                    q{};
+          if constexpr (mixed)
+            for (int j = 0; j < n_p; ++j)
+              q += p[j] * at.p_value[j];
+          else
+            q = data.moduli.kappa * volumetric.phi;
+          add_volumetric(
+              deformation, volumetric, q, mixed ? 0. : data.moduli.kappa, with_tangent, response);
+
+          value += weight * (response.energy + (mixed ? 1. : 0.5) * q * volumetric.phi);
+          for (int i = 0; i < 3; ++i)
+            for (int J = 0; J < 3; ++J)
+              response.P[3 * i + J] *= weight;
+          for (int a = 0; a < n_x; ++a)
+            for (int i = 0; i < dim; ++i)
+              for (int J = 0; J < dim; ++J)
+                r_u[a][i] += response.P[3 * i + J] * keep.gradient[a][J];
+          for (int j = 0; j < n_p; ++j)
+            {
+              const Batch share = weight * at.p_value[j];
+              r_p[j] += volumetric.phi * share;
+              first[j] += share;
+              for (int l = 0; l <= j; ++l)
+                mass[j][l] += share * at.p_value[l];
+            }
+
+          if (with_tangent)
+            for (int i = 0; i < dim; ++i)
+              for (int J = 0; J < dim; ++J)
+                {
+                  keep.d_phi[i][J] = weight * volumetric.d_phi * deformation.cofactor[3 * i + J];
+                  for (int l = 0; l < dim; ++l)
+                    for (int L = 0; L < dim; ++L)
+                      keep.A[i][J][l][L] = weight * response.A[9 * (3 * i + J) + 3 * l + L];
+                }
+        }
+
+      double total = sum(value);
+      for (int a = 0; a < n_x; ++a)
+        for (int i = 0; i < dim; ++i)
+          out.r_u[dim * a + i] = sum(r_u[a][i]);
+      compliance(data.compliance, mass, first, out);
+      for (int j = 0; j < n_p; ++j)
+        {
+          double Cp = 0;
+          for (int l = 0; l < n_p; ++l)
+            Cp += out.C[j][l] * p[l];
+          out.r_p[j] = sum(r_p[j]) - Cp;
+          total -= 0.5 * p[j] * Cp;
+        }
+      return total;
+    }
+
+    static void compliance(const typename ElasticityData<dim>::Compliance &material,
+                           const Batch (&mass)[System::n_q][System::n_q],
+                           const Batch (&first)[System::n_q],
+                           System &out)
+    {
+      double m[System::n_q], volume = 0;
+      for (int j = 0; j < n_p; ++j)
+        {
+          m[j] = sum(first[j]);
+          volume += m[j]; // only stabilised elements ask: their functions add up to 1
+        }
+      for (int j = 0; j < n_p; ++j)
+        for (int l = 0; l <= j; ++l)
+          {
+            const double M = sum(mass[j][l]);
+            double       C = material.lumped ? (j == l ? m[j] : 0.) : M;
+            C *= material.compliance;
+            if (material.stabilisation > 0)
+              C += material.stabilisation * (M - m[j] * m[l] / volume);
+            out.C[j][l] = C;
+            out.C[l][j] = C;
+          }
+    }
+
+    void
+    tangent(const bool is_symmetric, const std::vector<PointTangent> &tangents, System &out) const
+    {
+      // For one node b the products A : dN_b of all points stay in the first-level cache
+      // while all nodes a run over them.
+      std::vector<ProductBatch> products(tangents.size());
+      for (int b = 0; b < n_x; ++b)
+        {
+          for (std::size_t k = 0; k < tangents.size(); ++k)
+            {
+              const PointTangent &at = tangents[k];
+              for (int i = 0; i < dim; ++i)
+                for (int J = 0; J < dim; ++J)
+                  for (int l = 0; l < dim; ++l)
+                    {
+                      Batch product = at.A[i][J][l][0] * at.gradient[b][0];
+                      for (int L = 1; L < dim; ++L)
+                        product += at.A[i][J][l][L] * at.gradient[b][L];
+                      products[k].B[J][i][l] = product;
+                    }
+              if constexpr (mixed)
+                for (int i = 0; i < dim; ++i)
+                  {
+                    Batch normal = at.d_phi[i][0] * at.gradient[b][0];
+                    for (int L = 1; L < dim; ++L)
+                      normal += at.d_phi[i][L] * at.gradient[b][L];
+                    products[k].normal[i] = normal;
+                  }
+            }
+
+          for (int a = 0; a <= (is_symmetric ? b : n_x - 1); ++a)
+            {
+              Batch K[dim][dim] = {};
+              for (std::size_t k = 0; k < tangents.size(); ++k)
+                for (int J = 0; J < dim; ++J)
+                  for (int i = 0; i < dim; ++i)
+                    for (int l = 0; l < dim; ++l)
+                      K[i][l] += products[k].B[J][i][l] * tangents[k].gradient[a][J];
+              for (int i = 0; i < dim; ++i)
+                for (int l = 0; l < dim; ++l)
+                  {
+                    const double entry              = sum(K[i][l]);
+                    out.K[dim * a + i][dim * b + l] = entry;
+                    if (is_symmetric)
+                      out.K[dim * b + l][dim * a + i] = entry;
+                  }
+            }
+
+          for (int j = 0; j < n_p; ++j)
+            for (int i = 0; i < dim; ++i)
+              {
+                Batch G{};
+                for (std::size_t k = 0; k < tangents.size(); ++k)
+                  G += products[k].normal[i] * points[k].p_value[j];
+                out.G[j][dim * b + i] = sum(G);
+              }
+        }
+    }
+
+    struct ProductBatch
+    {
+      Batch B[dim][dim][dim]; ///< [J][i][k] = A_iJkL dN_b/dX_L
+      Batch normal[dim];      ///< Phi' dJ/dF dN_b/dX
+    };
+
+    /// d xi / d X and det dX / d xi at eight quadrature points.
+    struct Geometry
+    {
+      Batch inverse[dim][dim];
+      Batch determinant;
+    };
+
+    Geometry
+    geometry(const CellTables<dim> &cells, const std::size_t cell, const std::size_t k) const
+    {
+      Geometry map;
+      if (cells.is_affine[cell])
+        {
+          for (int d = 0; d < dim; ++d)
+            for (int J = 0; J < dim; ++J)
+              map.inverse[d][J] = batch(cells.inverse(cell)[d * dim + J]);
+          map.determinant = batch(cells.determinant[cell]);
+          return map;
+        }
+
+      Batch jacobian[dim][dim] = {}; // [J][d] = d X_J / d xi_d
+      for (unsigned int i = 0; i < cells.n_g; ++i)
+        {
+          const auto &X = cells.geometry[cell * cells.n_g + i];
+          const auto &g = geometry_gradients[k * cells.n_g + i];
+          for (int J = 0; J < dim; ++J)
+            for (int d = 0; d < dim; ++d)
+              jacobian[J][d] += X[J] * g[d];
+        }
+      invert(jacobian, map);
+      return map;
+    }
+
+    static void invert(const Batch (&A)[dim][dim], Geometry &map)
+    {
+      Batch cofactor[dim][dim]; // of A
+      if constexpr (dim == 2)
+        {
+          cofactor[0][0] = A[1][1];
+          cofactor[0][1] = -A[1][0];
+          cofactor[1][0] = -A[0][1];
+          cofactor[1][1] = A[0][0];
+        }
+      else
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            {
+              const int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
+              cofactor[i][j] = A[k][m] * A[l][n] - A[k][n] * A[l][m];
+            }
+      map.determinant = A[0][0] * cofactor[0][0];
+      for (int j = 1; j < dim; ++j)
+        map.determinant += A[0][j] * cofactor[0][j];
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          map.inverse[j][i] = cofactor[i][j] / map.determinant;
+    }
+
+    std::vector<PointBatch>             points;
+    std::vector<std::array<Batch, dim>> geometry_gradients; ///< [batch * n_g + i], if not affine
+  };
+
+  template <int dim>
+  using KernelPointer = std::unique_ptr<const typename Elasticity<dim>::Kernel>;
+
+  /// A compiled pair of numbers of nodes per cell.
+  template <int dim>
+  struct KernelRow
+  {
+    unsigned int n_x, n_p;
+    KernelPointer<dim> (*make)(const Discretisation<dim> &);
+  };
+
+  template <int dim, int n_x, int n_p>
+  KernelPointer<dim> make_kernel(const Discretisation<dim> &discretisation)
+  {
+    return std::make_unique<QuadratureKernel<dim, n_x, n_p>>(discretisation);
+  }
+
+  template <int dim, int n_x, int n_p>
+  constexpr KernelRow<dim> kernel_row()
+  {
+    return {n_x, n_p, &make_kernel<dim, n_x, n_p>};
+  }
+
+  /// The kernels of simplices, low and high orders, and of hypercubes; each in a file of its own.
+  template <int dim>
+  const std::vector<KernelRow<dim>> &low_order_simplex_kernels();
+  template <int dim>
+  const std::vector<KernelRow<dim>> &high_order_simplex_kernels();
+  template <int dim>
+  const std::vector<KernelRow<dim>> &hypercube_kernels();
+} // namespace isochor
