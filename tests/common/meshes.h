@@ -41,23 +41,25 @@ namespace isochor::testing
     return make_mesh<dim>(request, MPI_COMM_WORLD);
   }
 
-  /// n blocks per direction, each cut into 2 triangles or 6 tetrahedra.
+  /// n blocks per direction, for simplices each cut into 2 triangles or 6 tetrahedra.
   template <int dim>
-  MeshRequest box_request(const unsigned int n)
+  MeshRequest box_request(const unsigned int n, const CellKind kind = CellKind::simplex)
   {
     MeshRequest request;
+    request.kind   = kind;
     request.source = dim == 2 ? "rectangle(1, 1)" : "box(1, 1, 1)";
     request.cells.assign(dim, n);
     request.split = dim == 2 ? Split::right_diagonal : Split::six_tets;
     return request;
   }
 
-  /// The same, with interior vertices moved at random, each cell's vertices in a random (positive)
+  /// The same, with interior vertices moved at random, each simplex' vertices in a random (positive)
   /// order, and ranks that meet at a ragged surface.
   template <int dim>
-  std::unique_ptr<Mesh<dim>> distorted_box(const unsigned int n)
+  std::unique_ptr<Mesh<dim>> distorted_box(const unsigned int n,
+                                           const CellKind     kind = CellKind::simplex)
   {
-    auto         raw = make_raw_mesh<dim>(box_request<dim>(n));
+    auto         raw = make_raw_mesh<dim>(box_request<dim>(n, kind));
     std::mt19937 random(7);
 
     std::uniform_real_distribution<double> shift(-0.13 / n, 0.13 / n);
@@ -71,7 +73,7 @@ namespace isochor::testing
       }
     // Cyclic permutations of three vertices are even.
     for (auto &cell : raw.cells)
-      for (unsigned int turn = 0; turn < 4; ++turn)
+      for (unsigned int turn = 0; turn < (kind == CellKind::simplex ? 4 : 0); ++turn)
         {
           const unsigned int          keep = random() % (dim + 1);
           std::array<unsigned int, 3> three{};
@@ -96,7 +98,27 @@ namespace isochor::testing
     mesh->triangulation.create_triangulation(
         dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
             whole, MPI_COMM_WORLD));
+    mesh->kind  = kind;
     mesh->names = raw.names;
     return mesh;
   }
+
+  /// Distorted boxes of both kinds of cells.
+  template <int dim>
+  class DistortedBoxes
+  {
+  public:
+    explicit DistortedBoxes(const unsigned int n)
+      : meshes{distorted_box<dim>(n), distorted_box<dim>(n, CellKind::hypercube)}
+    {
+    }
+
+    const Mesh<dim> &operator[](const CellKind kind) const
+    {
+      return *meshes[static_cast<unsigned int>(kind)];
+    }
+
+  private:
+    std::array<std::unique_ptr<Mesh<dim>>, 2> meshes;
+  };
 } // namespace isochor::testing

@@ -18,7 +18,7 @@ namespace
     blood_orange
   };
   constexpr auto fruit_names
-      = name_table<Fruit>({ { Fruit::apple, "apple" }, { Fruit::blood_orange, "blood orange" } });
+      = name_table<Fruit>({{Fruit::apple, "apple"}, {Fruit::blood_orange, "blood orange"}});
 
   std::string caught(const std::function<void()> &action)
   {
@@ -49,8 +49,7 @@ int main(int argc, char **argv)
                 << fruit_names.selection() << '\n'
                 << (fruit_names.value("apple", "Fruit") == Fruit::apple) << '\n'
                 << caught([]() { fruit_names.value("pear", "Bowl/Fruit"); }) << '\n'
-                << listed({}) << " | " << listed({ "a" }) << " | " << listed({ "a", "b", "c" })
-                << '\n';
+                << listed({}) << " | " << listed({"a"}) << " | " << listed({"a", "b", "c"}) << '\n';
     }
 
   const auto report = [&](const std::string &title, const std::string &mine) {

@@ -78,9 +78,9 @@ namespace
     }
     void run(dealii::ParameterHandler &prm) override
     {
-      std::cout << "  run: " << prm.get({ "Method" }, "Element") << ", nu "
-                << prm.get({ "Scene" }, "Poisson ratio") << ", steps "
-                << prm.get({ "Method" }, "Steps") << '\n';
+      std::cout << "  run: " << prm.get({"Method"}, "Element") << ", nu "
+                << prm.get({"Scene"}, "Poisson ratio") << ", steps " << prm.get({"Method"}, "Steps")
+                << '\n';
     }
   };
 
@@ -114,12 +114,12 @@ int main()
     write("test_parameters.inc", "subsection Method\nset Steps = 4\nend\n");
     dealii::ParameterHandler prm;
     declare(prm);
-    read_parameter_file(prm, file, { "Scene/Density = 1070", "Method/Newton/Tolerance=1e-7" });
-    std::cout << "  " << prm.get({ "Scene" }, "Young's modulus") << " | "
-              << prm.get({ "Scene" }, "Poisson ratio") << " | " << prm.get({ "Scene" }, "Density")
-              << " | " << prm.get({ "Scene" }, "Fixed") << " | " << prm.get({ "Method" }, "Steps")
-              << " | " << prm.get({ "Method", "Newton" }, "Tolerance") << " | "
-              << prm.get({ "Method" }, "Element") << '\n';
+    read_parameter_file(prm, file, {"Scene/Density = 1070", "Method/Newton/Tolerance=1e-7"});
+    std::cout << "  " << prm.get({"Scene"}, "Young's modulus") << " | "
+              << prm.get({"Scene"}, "Poisson ratio") << " | " << prm.get({"Scene"}, "Density")
+              << " | " << prm.get({"Scene"}, "Fixed") << " | " << prm.get({"Method"}, "Steps")
+              << " | " << prm.get({"Method", "Newton"}, "Tolerance") << " | "
+              << prm.get({"Method"}, "Element") << '\n';
   }
 
   std::cout << "no variation: 1 run\n";
@@ -128,9 +128,9 @@ int main()
   loop("subsection Method\nset Element = {{P1 | P2|P1-P1}}\nend\nsubsection Scene\n"
        "set Poisson ratio = 0.{{3|49}}\nend\n");
   std::cout << "single braces and an override that varies: 4 runs\n";
-  loop("subsection Method\nset Element = {P1|P2}\nset Steps=7\nend\n", { "Method/Steps={{1|2}}" });
+  loop("subsection Method\nset Element = {P1|P2}\nset Steps=7\nend\n", {"Method/Steps={{1|2}}"});
   std::cout << "an override ends a variation: 1 run\n";
-  loop("subsection Method\nset Element = {{P1|P2}}\nend\n", { "Method/Element=P1-P1" });
+  loop("subsection Method\nset Element = {{P1|P2}}\nend\n", {"Method/Element=P1-P1"});
 
   refuse("unknown key", in_scene + "\n  set Colour = red\n" + end);
   refuse("misspelt key", in_scene + "  set Youngs Modulus = 1\n" + end);
@@ -167,12 +167,12 @@ int main()
   refuse("missing included file", "include nowhere.inc\n");
 
   const std::string good = in_scene + "set Density = 1\n" + end;
-  refuse("override without =", good, { "Scene/Density" });
-  refuse("override without section", good, { "Density=3" });
-  refuse("override of a misspelt section", good, { "Scen/Density=3" });
-  refuse("override of a misspelt key", good, { "Scene/density=3" });
-  refuse("override with a bad value", good, { "Scene/Density=-3" });
-  refuse("override with a bad variation", good, { "Scene/Density={{1|-3}}" });
+  refuse("override without =", good, {"Scene/Density"});
+  refuse("override without section", good, {"Density=3"});
+  refuse("override of a misspelt section", good, {"Scen/Density=3"});
+  refuse("override of a misspelt key", good, {"Scene/density=3"});
+  refuse("override with a bad value", good, {"Scene/Density=-3"});
+  refuse("override with a bad variation", good, {"Scene/Density={{1|-3}}"});
 
   const auto read = [](const fs::path &path) {
     dealii::ParameterHandler prm;
@@ -185,17 +185,17 @@ int main()
 
   std::cout << "patterns in words\n";
   namespace Patterns = dealii::Patterns;
-  for (const std::string &description : { Patterns::Integer().description(),
-                                          Patterns::Integer(0, 5).description(),
-                                          Patterns::Double().description(),
-                                          Patterns::Double(0.5).description(),
-                                          Patterns::Anything().description(),
-                                          Patterns::List(Patterns::Integer(1)).description(),
-                                          NumberPattern::any().and_below(3).description({}) })
+  for (const std::string &description : {Patterns::Integer().description(),
+                                         Patterns::Integer(0, 5).description(),
+                                         Patterns::Double().description(),
+                                         Patterns::Double(0.5).description(),
+                                         Patterns::Anything().description(),
+                                         Patterns::List(Patterns::Integer(1)).description(),
+                                         NumberPattern::any().and_below(3).description({})})
     std::cout << "  " << plain_words(description) << '\n';
 
   std::cout << "lists\n";
-  for (const std::string text : { "", " a ; b;", "a;;b", "max(1;2); c", ";" })
+  for (const std::string text : {"", " a ; b;", "a;;b", "max(1;2); c", ";"})
     {
       std::cout << "  '" << text << "':";
       for (const std::string &piece : split_list(text, ';'))
@@ -206,7 +206,7 @@ int main()
   std::cout << "numbers\n";
   std::cout << "  " << parse_number(" +2.5e-1 ", "") << ' ' << parse_whole_number("12", 1, "")
             << ' ' << parse_vector<3>("1, -2,3e0", "") << '\n';
-  for (const std::string text : { "", "1 2", "0x10", "inf", "1e999", "two" })
+  for (const std::string text : {"", "1 2", "0x10", "inf", "1e999", "two"})
     expect_error("  '" + text + "'", [&]() { parse_number(text, "What"); });
   expect_error("  -1, at least 0", []() { parse_whole_number("-1", 0, "What"); });
   expect_error("  2 of 3", []() { parse_vector<3>("1, 2", "What"); });

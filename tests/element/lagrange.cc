@@ -4,6 +4,7 @@
 
 #include "../common/report.h"
 
+#include <isochor/element/lagrange_simplex.h>
 #include <isochor/element/nodal_element.h>
 
 #include <deal.II/fe/fe_simplex_p.h>
@@ -87,7 +88,7 @@ namespace
         std::cout << ' ' << nodes.size();
         // A face's points have a zero barycentric coordinate: that of the opposite vertex.
         unsigned int opposite = (dim + 1) * dim / 2;
-        for (const unsigned int v : face_vertices<dim>(face))
+        for (const unsigned int v : reference_faces<dim>(CellKind::simplex)[face])
           opposite -= v;
         for (const unsigned int node : nodes)
           on_plane = on_plane && std::abs(barycentric(shape.node(node))[opposite]) < 1e-15;
@@ -108,7 +109,7 @@ namespace
     std::cout << "\n  cubic edges: " << shape.edge_nodes().size() << ", nodes at thirds "
               << below(third, 1e-15) << '\n';
 
-    const NodalElement<dim> element(shape.degree());
+    const NodalElement<dim> element(shape);
     double                  moved = 0;
     for (unsigned int i = 0; i < shape.n_nodes(); ++i)
       raise(moved, element.unit_support_point(i).distance(shape.node(i)));

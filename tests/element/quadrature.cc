@@ -6,7 +6,7 @@
 
 #include "../common/report.h"
 
-#include <isochor/element/simplex_quadrature.h>
+#include <isochor/element/cell_quadrature.h>
 
 using namespace isochor;
 using namespace isochor::testing;
@@ -47,7 +47,7 @@ namespace
     std::cout << dim << "D\n";
     for (unsigned int degree = 1; degree <= 9; ++degree)
       {
-        const auto   quadrature = simplex_quadrature<dim>(degree);
+        const auto   quadrature = cell_quadrature<dim>(CellKind::simplex, degree);
         double       error = 0, outside = 0;
         unsigned int fails = 0;
         for (; worst_error(quadrature, fails) < 1e-9; ++fails)
@@ -74,8 +74,9 @@ int main()
   test<1>();
   test<2>();
   test<3>();
-  std::cout << "degree 10: " << message_of<std::logic_error>([]() { simplex_quadrature<2>(10); })
-            << '\n'
-            << "degree 10: " << message_of<std::logic_error>([]() { simplex_quadrature<3>(10); })
+  std::cout << "degree 10: " << message_of<std::logic_error>([]() {
+    cell_quadrature<2>(CellKind::simplex, 10);
+  }) << '\n' << "degree 10: "
+            << message_of<std::logic_error>([]() { cell_quadrature<3>(CellKind::simplex, 10); })
             << '\n';
 }

@@ -4,6 +4,7 @@
 // change nothing, an affine state has the energy density times the volume.
 
 #include "../common/difference.h"
+#include "../common/fields.h"
 #include "../common/meshes.h"
 #include "../common/report.h"
 
@@ -27,19 +28,8 @@ namespace
            const double                                                     pressure,
            Vector                                                          &state)
   {
-    const auto &cells = discretisation.cells;
-    for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
-      {
-        for (unsigned int a = 0; a < cells.n_x; ++a)
-          {
-            const auto u = displacement(cells.position(cell, discretisation.x_shape.node(a)));
-            for (unsigned int c = 0; c < dim; ++c)
-              state.local_element(cells.x[cell * cells.n_x + a] + c) = u[c];
-          }
-        for (unsigned int j = 0; j < cells.n_p; ++j)
-          state.local_element(cells.p[cell * cells.n_p + j]) = pressure;
-      }
-    state.update_ghost_values();
+    interpolate(
+        discretisation, displacement, [&](const auto &) { return pressure; }, state);
   }
 
   /// u = G X.
@@ -88,7 +78,7 @@ namespace
     const double p     = 0.7;
     set<dim>(discretisation, affine<dim>(stretch_and_shear<dim>()), p, state);
     const auto   noise = random_vector(state, 1);
-    const double size  = 0.04 / discretisation.element.displacement_degree;
+    const double size  = 0.04 / discretisation.element.displacement.degree;
     for (LocalIndex i = 0; i < state.locally_owned_size(); ++i)
       state.local_element(i)
           += noise.local_element(i) * (i < discretisation.n_owned_displacements ? size / 2. : 1.);
@@ -138,11 +128,11 @@ namespace
   template <int dim>
   void test()
   {
-    const auto mesh = distorted_box<dim>(2);
+    const DistortedBoxes<dim> meshes(2);
     for (const Element &element : element_table())
       {
         out() << element.name << " in " << dim << "D\n";
-        const Discretisation<dim> discretisation(mesh->triangulation, element);
+        const Discretisation<dim> discretisation(meshes[element.kind].triangulation, element);
         const double              infinite = std::numeric_limits<double>::infinity();
         for (const Energy energy : {Energy::neo_hookean, Energy::bonet_wood})
           for (const auto strain : {VolumetricStrain::linear, VolumetricStrain::logarithmic})

@@ -120,16 +120,16 @@ namespace
   template <int dim>
   void test()
   {
-    const auto distorted = distorted_box<dim>(dim == 2 ? 4 : 3);
-    const auto by_gmsh   = gmsh_box<dim>(dim == 2 ? 0.25 : 0.35);
+    const DistortedBoxes<dim> distorted(dim == 2 ? 4 : 3);
+    const auto                by_gmsh = gmsh_box<dim>(dim == 2 ? 0.25 : 0.35);
     out() << dim << "D, distorted mesh\n";
     for (const Element &element : element_table())
       for (const Energy energy : {Energy::neo_hookean, Energy::bonet_wood})
-        all_prescribed(*distorted, element, energy);
-    out() << dim << "D, mesh by gmsh\n";
+        all_prescribed(distorted[element.kind], element, energy);
+    out() << dim << "D, tetrahedra and triangles by gmsh, distorted hexahedra and quadrilaterals\n";
     for (const Element &element : element_table())
       if (element.is_mixed())
-        traction(*by_gmsh, element);
+        traction(element.kind == CellKind::simplex ? *by_gmsh : distorted[element.kind], element);
   }
 } // namespace
 

@@ -181,13 +181,15 @@ int main(int argc, char **argv)
   const MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const auto                  square = gmsh_box<2>(0.25);
   const auto                  cube   = gmsh_box<3>(0.35);
+  const auto                  quads  = distorted_box<2>(4, CellKind::hypercube);
+  const auto                  hexes  = distorted_box<3>(3, CellKind::hypercube);
   for (const Element &element : element_table())
     if (element.is_mixed())
       {
         out() << element.name << " in 2D\n";
-        incompressible(*square, element);
+        incompressible(element.kind == CellKind::simplex ? *square : *quads, element);
         out() << element.name << " in 3D\n";
-        incompressible(*cube, element);
+        incompressible(element.kind == CellKind::simplex ? *cube : *hexes, element);
       }
   out() << "small strain, deviations\n";
   const auto block = distorted_box<3>(2);

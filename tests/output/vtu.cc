@@ -102,8 +102,8 @@ namespace
     for (unsigned int cell = 0; cell < patches.size(); ++cell)
       {
         const auto                     &patch = patches[cell];
-        std::vector<dealii::Point<dim>> positions(&discretisation.cells.vertices[cell * (dim + 1)],
-                                                  &discretisation.cells.vertices[cell * (dim + 1)]
+        std::vector<dealii::Point<dim>> positions(&discretisation.cells.geometry[cell * (dim + 1)],
+                                                  &discretisation.cells.geometry[cell * (dim + 1)]
                                                       + dim + 1);
         if (quadratic)
           for (const auto &[v, w] : edges)

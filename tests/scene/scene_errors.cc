@@ -32,7 +32,7 @@ namespace
                   << '\n';
       }
     // The handler is left at its top level.
-    prm.get({ "Scene" }, "Mesh");
+    prm.get({"Scene"}, "Mesh");
   }
 } // namespace
 
@@ -107,7 +107,7 @@ int main()
   const Expression<3> formula("1/x", "Scene/Traction: entry 'right: 1/x, 0, 0'");
   try
     {
-      formula.value({ 0., 0.5, 1. }, 0.25);
+      formula.value({0., 0.5, 1.}, 0.25);
       std::cout << "NO ERROR\n";
     }
   catch (const UserError &error)

@@ -8,7 +8,7 @@
 #include "../common/meshes.h"
 #include "../common/report.h"
 
-#include <isochor/element/simplex_quadrature.h>
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/space/discretisation.h>
 
 #include <functional>
@@ -68,7 +68,7 @@ namespace
   errors(const Discretisation<dim> &discretisation, const Vector &values, const Function<dim> &f)
   {
     const auto                      &cells      = discretisation.cells;
-    const auto                       quadrature = simplex_quadrature<dim>(8);
+    const auto                       quadrature = cell_quadrature<dim>(CellKind::simplex, 8);
     std::vector<std::vector<double>> shape(quadrature.size());
     for (unsigned int q = 0; q < quadrature.size(); ++q)
       for (unsigned int a = 0; a < cells.n_x; ++a)
@@ -112,7 +112,7 @@ namespace
       {
         const Discretisation<dim> discretisation(mesh.triangulation, find_element(name, ""));
         const Function<dim>       f = [&](const dealii::Point<dim> &x) {
-          return polynomial(x, discretisation.element.displacement_degree);
+          return polynomial(x, discretisation.element.displacement.degree);
         };
         const auto interpolant = interpolate(discretisation, f);
         double     jacobian = 0, volume = 0;
@@ -128,7 +128,7 @@ namespace
             for (unsigned int k = 0; k < dim; ++k)
               for (unsigned int v = 1; v <= dim; ++v)
                 {
-                  const auto *vertex = &discretisation.cells.vertices[cell * (dim + 1)];
+                  const auto *vertex = &discretisation.cells.geometry[cell * (dim + 1)];
                   raise(jacobian,
                         std::abs(inverse[k] * (vertex[v] - vertex[0]) - (v == k + 1 ? 1. : 0.)));
                 }

@@ -10,7 +10,7 @@
 #include "../common/report.h"
 #include "../common/supports.h"
 
-#include <isochor/element/simplex_quadrature.h>
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/space/matrix_pattern.h>
 #include <isochor/space/prescribed_displacements.h>
 
@@ -46,8 +46,8 @@ namespace
   template <int dim>
   struct Table
   {
-    Table(const LagrangeSimplex<dim> &shape, const unsigned int degree)
-      : quadrature(simplex_quadrature<dim>(degree))
+    Table(const ShapeFunctions<dim> &shape, const unsigned int degree)
+      : quadrature(cell_quadrature<dim>(CellKind::simplex, degree))
     {
       for (const auto &xi : quadrature.get_points())
         for (unsigned int a = 0; a < shape.n_nodes(); ++a)
@@ -167,9 +167,9 @@ namespace
         const Element &element = find_element(name, "");
         const double   order
             = std::log(solve(*coarse, element) / solve(*fine, element)) / std::log(ratio);
-        out() << name << " in " << dim << "D: L2 order " << element.displacement_degree + 1
-              << " within 0.25: " << yes(std::abs(order - element.displacement_degree - 1) < 0.25);
-        if (!(std::abs(order - element.displacement_degree - 1) < 0.25))
+        out() << name << " in " << dim << "D: L2 order " << element.displacement.degree + 1
+              << " within 0.25: " << yes(std::abs(order - element.displacement.degree - 1) < 0.25);
+        if (!(std::abs(order - element.displacement.degree - 1) < 0.25))
           out() << ", IT IS " << order;
         out() << '\n';
       }
