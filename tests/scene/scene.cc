@@ -37,7 +37,8 @@ namespace
               << ", density " << scene.material.density << ", "
               << energy_names.name(scene.material.energy) << ", "
               << volumetric_strain_names.name(scene.material.volumetric_strain) << ", "
-              << kappa_convention_names.name(scene.material.kappa) << '\n'
+              << kappa_convention_names.name(scene.material.kappa) << ", ratio "
+              << scene.material.mooney_rivlin_ratio << '\n'
               << "gravity " << scene.gravity << '\n';
     dealii::Point<dim> X;
     for (unsigned int d = 0; d < dim; ++d)
@@ -91,7 +92,7 @@ namespace
           std::abs(copy.value(X, 0.25)
                    - (std::sin(pi * 0.3) * std::exp(-0.7) + 0.25 * 1.1 * 1.1 + 0.3)));
     const Expression<2> planar("x*y*load", "test");
-    check("in 2D", std::abs(planar.value({ 2., 3. }, 0.5) - 3.));
+    check("in 2D", std::abs(planar.value({2., 3.}, 0.5) - 3.));
     const Expression<3> number(" 6.25e6 ", "test");
     check("plain number",
           std::abs(number.value(X, 0.) - 6.25e6) + std::abs(*number.constant() - 6.25e6));
@@ -110,9 +111,9 @@ namespace
                                .supports.at(0);
       const dealii::Point<3>     X(1.5, 2.25, -1.);
       const double               a = 0.4 * pi / 2.;
-      const dealii::Tensor<1, 3> exact({ std::cos(a) * 0.5 - std::sin(a) * 0.25 - 0.5,
-                                         std::sin(a) * 0.5 + std::cos(a) * 0.25 - 0.25,
-                                         0. });
+      const dealii::Tensor<1, 3> exact({std::cos(a) * 0.5 - std::sin(a) * 0.25 - 0.5,
+                                        std::sin(a) * 0.5 + std::cos(a) * 0.25 - 0.25,
+                                        0.});
       check("rotation about z", (support.displacement(X, 0.4) - exact).norm());
       check("no load, no rotation", support.displacement(X, 0.).norm());
     }
@@ -122,14 +123,14 @@ namespace
                 .supports.at(0);
       // (2, 0) turns counterclockwise about (1, 0) to (1, 1)
       check("quarter turn in 2D",
-            (support.displacement({ 2., 0. }, 1.) - dealii::Tensor<1, 2>({ -1., 1. })).norm());
+            (support.displacement({2., 0.}, 1.) - dealii::Tensor<1, 2>({-1., 1.})).norm());
     }
     {
       const auto support = parse<3>("set Mesh = box(1,1,1)\nset Prescribed rotation = right: -70 "
                                     "about 0.1, 0.2, 0.3 axis 1, -2, 0.5\n")
                                .supports.at(0);
       const dealii::Point<3> c(0.1, 0.2, 0.3), X(1., 1., 1.);
-      dealii::Tensor<1, 3>   axis({ 1., -2., 0.5 });
+      dealii::Tensor<1, 3>   axis({1., -2., 0.5});
       axis /= axis.norm();
       const dealii::Tensor<1, 3> r = X - c, turned = r + support.displacement(X, 1.);
       const auto across = r - (r * axis) * axis, across_turned = turned - (turned * axis) * axis;
@@ -174,6 +175,19 @@ int main()
                  "set Fixed components = bottom: y\nset Prescribed displacement = top: -, 1e-3\n"
                  "set Prescribed rotation = right: 0 about 0, 0\nset Traction = right: 0, 1\n"
                  "set Probes = p: displacement at 1, 2; m: min displacement magnitude on top\n"));
+
+  std::cout << "volumetric strain that goes with the energy\n";
+  for (const std::string &energy : energy_names.names())
+    for (const std::string strain : {"automatic", "log J"})
+      {
+        const Material material
+            = parse<3>("set Mesh = a.msh\nset Mooney-Rivlin ratio = 0.2\nset Energy = " + energy
+                       + "\nset Volumetric strain = " + strain + "\n")
+                  .material;
+        std::cout << energy_names.name(material.energy) << ", " << strain << ": "
+                  << volumetric_strain_names.name(material.volumetric_strain) << ", ratio "
+                  << material.mooney_rivlin_ratio << '\n';
+      }
 
   std::cout << "expressions\n";
   expressions();
