@@ -12,7 +12,7 @@ namespace isochor
                               const Moduli              &moduli,
                               const ComplianceOptions   &options)
     : data{discretisation,
-           make_distortional_energy(energy, moduli.mu),
+           make_distortional_energy(energy, moduli),
            volumetric_strain,
            moduli,
            {moduli.compliance(),

@@ -48,10 +48,9 @@ namespace isochor
     , offsets(make_pattern(discretisation, pattern))
   {
     const Material &material = scene.material;
-    const Moduli    moduli   = isochor::moduli(
-        material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
-    is_compressible_ = std::isfinite(moduli.kappa);
-    internal         = std::make_unique<Elasticity<dim>>(
+    const Moduli    moduli   = isochor::moduli(material);
+    is_compressible_         = std::isfinite(moduli.kappa);
+    internal                 = std::make_unique<Elasticity<dim>>(
         discretisation, material.energy, material.volumetric_strain, moduli, compliance);
     if (scene.gravity.norm() > 0)
       loads.push_back(

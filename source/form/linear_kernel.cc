@@ -117,7 +117,7 @@ namespace isochor
 
         Response response;
         data.energy->evaluate(deformation, with_tangent, response);
-        const VolumetricResponse volumetric = evaluate(data.volumetric_strain, deformation.J);
+        const VolumetricResponse volumetric = evaluate(data.volumetric_strain, deformation);
 
         Batch q = data.moduli.kappa * volumetric.phi;
         if constexpr (mixed)
@@ -166,12 +166,11 @@ namespace isochor
           }
 
         if (with_tangent)
-          tangent(data.energy->is_symmetric(), in, deformation, volumetric, response, out);
+          tangent(data.energy->is_symmetric(), in, volumetric, response, out);
       }
 
       static void tangent(const bool                is_symmetric,
                           const CellBatch          &in,
-                          const Deformation        &deformation,
                           const VolumetricResponse &volumetric,
                           const Response           &response,
                           BatchSystem              &out)
@@ -206,10 +205,10 @@ namespace isochor
             if constexpr (mixed)
               for (int i = 0; i < dim; ++i)
                 {
-                  Batch normal = deformation.cofactor[3 * i] * gradient[0];
+                  Batch normal = volumetric.gradient[3 * i] * gradient[0];
                   for (int L = 1; L < dim; ++L)
-                    normal += deformation.cofactor[3 * i + L] * gradient[L];
-                  out.G[dim * b + i] = (1. / n_p) * volumetric.d_phi * normal;
+                    normal += volumetric.gradient[3 * i + L] * gradient[L];
+                  out.G[dim * b + i] = (1. / n_p) * normal;
                 }
           }
       }

@@ -5,18 +5,36 @@
 
 namespace isochor
 {
-  VolumetricResponse evaluate(const VolumetricStrain strain, const Batch &J)
+  VolumetricResponse evaluate(const VolumetricStrain strain, const Deformation &deformation)
   {
+    const auto        &F = deformation.F;
+    VolumetricResponse result;
     switch (strain)
       {
         case VolumetricStrain::linear:
-          return {J - 1., batch(1.), batch(0.)};
+          result.phi       = deformation.J - 1.;
+          result.d_phi     = batch(1.);
+          result.curvature = batch(0.);
+          for (int k = 0; k < 9; ++k)
+            result.gradient[k] = deformation.cofactor[k];
+          return result;
         case VolumetricStrain::logarithmic:
           {
-            const Batch positive = positive_or_nan(J);
-            const Batch inverse  = 1. / positive;
-            return {log(positive), inverse, -inverse * inverse};
+            const Batch J    = positive_or_nan(deformation.J);
+            result.phi       = log(J);
+            result.d_phi     = 1. / J;
+            result.curvature = batch(-1.);
+            for (int k = 0; k < 9; ++k)
+              result.gradient[k] = result.d_phi * deformation.cofactor[k];
+            return result;
           }
+        case VolumetricStrain::trace:
+          result.phi       = (F[0] - 1.) + (F[4] - 1.) + (F[8] - 1.);
+          result.d_phi     = batch(0.);
+          result.curvature = batch(0.);
+          for (int k = 0; k < 9; ++k)
+            result.gradient[k] = batch(k % 4 == 0 ? 1. : 0.);
+          return result;
       }
     throw std::logic_error("a volumetric strain that is not known");
   }
@@ -28,37 +46,21 @@ namespace isochor
                       const bool                with_tangent,
                       Response                 &response)
   {
-    const auto &F        = deformation.F;
-    const auto &cofactor = deformation.cofactor;
-    const Batch pressure = q * volumetric.d_phi;
+    const auto &gradient = volumetric.gradient;
     for (int k = 0; k < 9; ++k)
-      response.P[k] += pressure * cofactor[k];
+      response.P[k] += q * gradient[k];
     if (!with_tangent)
       return;
 
-    const Batch modulus = q * volumetric.d2_phi + stiffness * volumetric.d_phi * volumetric.d_phi;
+    const Batch modulus = q * volumetric.curvature + stiffness;
 #pragma GCC unroll 9
     for (int k = 0; k < 9; ++k)
       {
-        const Batch scaled = modulus * cofactor[k];
+        const Batch scaled = modulus * gradient[k];
 #pragma GCC unroll 9
         for (int l = 0; l < 9; ++l)
-          response.A[9 * k + l] += scaled * cofactor[l];
+          response.A[9 * k + l] += scaled * gradient[l];
       }
-
-      // d2J / dF_iJ dF_kL = eps_ikm eps_JLM F_mM holds at J = 0, too. For each (m, M) four entries;
-      // (i, k, m) and (J, L, M) are cyclic.
-#pragma GCC unroll 3
-    for (int m = 0; m < 3; ++m)
-#pragma GCC unroll 3
-      for (int M = 0; M < 3; ++M)
-        {
-          const Batch term = pressure * F[3 * m + M];
-          const int   i = (m + 1) % 3, k = (m + 2) % 3, J = (M + 1) % 3, L = (M + 2) % 3;
-          response.A[9 * (3 * i + J) + 3 * k + L] += term;
-          response.A[9 * (3 * k + L) + 3 * i + J] += term;
-          response.A[9 * (3 * i + L) + 3 * k + J] -= term;
-          response.A[9 * (3 * k + J) + 3 * i + L] -= term;
-        }
+    add_second_derivative_of_J(q * volumetric.d_phi, deformation.F, response.A);
   }
 } // namespace isochor

@@ -44,12 +44,9 @@ namespace isochor
   CellFields<dim>::CellFields(const Discretisation<dim> &discretisation, const Material &material)
     : discretisation(discretisation)
     , volumetric_strain(material.volumetric_strain)
-    , moduli(isochor::moduli(material.youngs_modulus,
-                             material.poisson_ratio,
-                             material.energy,
-                             material.kappa))
+    , moduli(isochor::moduli(material))
   {
-    energy = make_distortional_energy(material.energy, moduli.mu);
+    energy = make_distortional_energy(material.energy, moduli);
     if (!discretisation.element.is_mixed() && !std::isfinite(moduli.kappa))
       throw std::logic_error("a displacement element needs a finite kappa");
   }
@@ -133,7 +130,7 @@ namespace isochor
 
         Response response;
         energy->evaluate(deformation, false, response);
-        const VolumetricResponse volumetric = isochor::evaluate(volumetric_strain, deformation.J);
+        const VolumetricResponse volumetric = isochor::evaluate(volumetric_strain, deformation);
         Batch                    q{};
         if (cells.n_p > 0)
           for (unsigned int j = 0; j < cells.n_p; ++j)

@@ -17,8 +17,7 @@ namespace isochor
     void check_element(const Element &element, const Material &material)
     {
       const std::string name(element.name);
-      const auto [mu, kappa] = moduli(
-          material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
+      const double      kappa = moduli(material).kappa;
       if (!element.is_mixed() && !std::isfinite(kappa))
         throw UserError("Method/Element: " + name
                         + " has no pressure and cannot compute Scene/Poisson ratio = 0.5; choose a "
@@ -58,8 +57,7 @@ namespace isochor
           if (!method.compliance.lumped)
             throw UserError("Method/Condensation: 'pressure' needs a diagonal compliance matrix; "
                             "set Method/Compliance matrix = lumped, or choose automatic");
-          const auto [mu, kappa] = moduli(
-              material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
+          const double kappa = moduli(material).kappa;
           if (!std::isfinite(kappa))
             throw UserError(
                 "Method/Condensation: 'pressure' divides by 1 / kappa, which is zero at "

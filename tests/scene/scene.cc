@@ -37,7 +37,8 @@ namespace
               << ", density " << scene.material.density << ", "
               << energy_names.name(scene.material.energy) << ", "
               << volumetric_strain_names.name(scene.material.volumetric_strain) << ", "
-              << kappa_convention_names.name(scene.material.kappa) << '\n'
+              << kappa_convention_names.name(scene.material.kappa) << ", ratio "
+              << scene.material.mooney_rivlin_ratio << '\n'
               << "gravity " << scene.gravity << '\n';
     dealii::Point<dim> X;
     for (unsigned int d = 0; d < dim; ++d)
@@ -174,6 +175,19 @@ int main()
                  "set Fixed components = bottom: y\nset Prescribed displacement = top: -, 1e-3\n"
                  "set Prescribed rotation = right: 0 about 0, 0\nset Traction = right: 0, 1\n"
                  "set Probes = p: displacement at 1, 2; m: min displacement magnitude on top\n"));
+
+  std::cout << "volumetric strain that goes with the energy\n";
+  for (const std::string &energy : energy_names.names())
+    for (const std::string strain : {"automatic", "log J"})
+      {
+        const Material material
+            = parse<3>("set Mesh = a.msh\nset Mooney-Rivlin ratio = 0.2\nset Energy = " + energy
+                       + "\nset Volumetric strain = " + strain + "\n")
+                  .material;
+        std::cout << energy_names.name(material.energy) << ", " << strain << ": "
+                  << volumetric_strain_names.name(material.volumetric_strain) << ", ratio "
+                  << material.mooney_rivlin_ratio << '\n';
+      }
 
   std::cout << "expressions\n";
   expressions();

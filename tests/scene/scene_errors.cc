@@ -53,6 +53,8 @@ int main()
   refuse<3>("set Young's modulus = 0");
   refuse<3>("set Energy = Hooke");
   refuse<3>("set Volumetric modulus = bulk");
+  refuse<3>("set Volumetric strain = J");
+  refuse<3>("set Mooney-Rivlin ratio = 1.1");
 
   refuse<3>("set Fixed = left: x");
   refuse<3>("set Fixed = left,, right");

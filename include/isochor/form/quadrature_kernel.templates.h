@@ -98,7 +98,7 @@ namespace isochor
     {
       Batch gradient[n_x][dim];    ///< dN_a / dX
       Batch A[dim][dim][dim][dim]; ///< weighted
-      Batch d_phi[dim][dim];       ///< Phi' dJ/dF, weighted
+      Batch d_phi[dim][dim];       ///< dPhi/dF, weighted
     };
 
     /// Residual of one cell, and what its tangent needs. Returns the value of the term.
@@ -148,7 +148,7 @@ namespace isochor
 
           Response response;
           data.energy->evaluate(deformation, with_tangent, response);
-          const VolumetricResponse volumetric = evaluate(data.volumetric_strain, deformation.J);
+          const VolumetricResponse volumetric = evaluate(data.volumetric_strain, deformation);
           Batch                    q{};
           if constexpr (mixed)
             for (int j = 0; j < n_p; ++j)
@@ -179,7 +179,7 @@ namespace isochor
             for (int i = 0; i < dim; ++i)
               for (int J = 0; J < dim; ++J)
                 {
-                  keep.d_phi[i][J] = weight * volumetric.d_phi * deformation.cofactor[3 * i + J];
+                  keep.d_phi[i][J] = weight * volumetric.gradient[3 * i + J];
                   for (int l = 0; l < dim; ++l)
                     for (int L = 0; L < dim; ++L)
                       keep.A[i][J][l][L] = weight * response.A[9 * (3 * i + J) + 3 * l + L];

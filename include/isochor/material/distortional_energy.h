@@ -7,6 +7,7 @@
 #include <isochor/material/moduli.h>
 
 #include <memory>
+#include <string>
 
 namespace isochor
 {
@@ -29,35 +30,57 @@ namespace isochor
     Batch A[81]; ///< only filled when the tangent is asked for
   };
 
+  struct DeformationRange;
+
   class DistortionalEnergy
   {
   public:
     virtual ~DistortionalEnergy() = default;
 
-    /// J <= 0 in a lane gives NaN in that lane where the energy is not defined there; the
-    /// caller decides what to do about it.
+    /// Where the energy is not defined in a lane, most at J <= 0, that lane is NaN; the caller
+    /// decides what to do about it.
     virtual void
     evaluate(const Deformation &deformation, bool with_tangent, Response &response) const = 0;
 
-    /// Is A symmetric, that is, is P the gradient of an energy?
+    /// Is A_iJkL = A_kLiJ, which it is if P is the gradient of the energy?
     virtual bool is_symmetric() const
     {
       return true;
     }
+
+    /// Small-strain elasticity: P affine in F, A constant. With the volumetric strain "trace" the
+    /// whole problem is linear.
+    virtual bool is_linear() const
+    {
+      return false;
+    }
+
+    /// In plain words what to think of this energy in a body that was deformed so much; empty:
+    /// nothing to say.
+    virtual std::string weakness(const DeformationRange &) const
+    {
+      return {};
+    }
   };
 
-  std::unique_ptr<const DistortionalEnergy> make_distortional_energy(Energy energy, double mu);
+  /// @p moduli.kappa has no part in it.
+  std::unique_ptr<const DistortionalEnergy> make_distortional_energy(Energy        energy,
+                                                                     const Moduli &moduli);
 
-  /// Volumetric strain Phi(J) and its derivatives Phi'(J), Phi''(J), for eight points.
+  /// Volumetric strain Phi(F) at eight points, with
+  /// d2Phi/dF2 = d_phi d2J/dF2 + curvature dPhi/dF x dPhi/dF.
   struct VolumetricResponse
   {
-    Batch phi, d_phi, d2_phi;
+    Batch phi;
+    Batch gradient[9]; ///< dPhi/dF
+    Batch d_phi;       ///< dPhi/dJ; zero for the trace, which does not depend on J
+    Batch curvature;   ///< Phi'' / Phi'^2
   };
-  VolumetricResponse evaluate(VolumetricStrain strain, const Batch &J);
+  VolumetricResponse evaluate(VolumetricStrain strain, const Deformation &deformation);
 
-  /// Add q Phi'(J) dJ/dF to P and, if @p with_tangent, [q Phi'' + stiffness Phi'^2] dJ/dF x dJ/dF
-  /// + q Phi' d2J/dF2 to A. Mixed form: q = p, stiffness = 0. Displacement form: q = kappa Phi,
-  /// stiffness = kappa (equation 4).
+  /// Add q dPhi/dF to P and, if @p with_tangent, q d2Phi/dF2 + stiffness dPhi/dF x dPhi/dF to A.
+  /// Mixed form: q = p, stiffness = 0. Displacement form: q = kappa Phi, stiffness = kappa
+  /// (equation 4).
   void add_volumetric(const Deformation        &deformation,
                       const VolumetricResponse &volumetric,
                       const Batch              &q,

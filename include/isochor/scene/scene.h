@@ -17,14 +17,9 @@
 
 namespace isochor
 {
-  struct Material
+  struct Material : MaterialParameters
   {
-    double           youngs_modulus    = 1e6;  ///< Pa
-    double           poisson_ratio     = 0.45; ///< in (-1, 0.5]
-    double           density           = 1000; ///< kg/m^3, reference
-    Energy           energy            = Energy::neo_hookean;
-    VolumetricStrain volumetric_strain = VolumetricStrain::linear;
-    KappaConvention  kappa             = KappaConvention::consistent;
+    double density = 1000; ///< kg/m^3, reference
   };
 
   /// Prescribes displacement components on a boundary.
