@@ -116,7 +116,7 @@ target_compile_definitions(isochor_libraries INTERFACE
 # calls these few of them; the loader finds the rest through libdeal.ii itself.
 get_target_property(dealii_libraries ${dealii_target} INTERFACE_LINK_LIBRARIES)
 list(FILTER dealii_libraries INCLUDE REGEX
-  "/lib(tbb|trilinos_epetra|trilinos_teuchos(core|comm|parameterlist)|petsc[a-z_]*|boost_[a-z]+|mpi|z)\\.so")
+  "/lib(tbb|trilinos_epetra|trilinos_teuchos(core|comm|parameterlist)|petsc[a-z_]*|p?arpack|boost_[a-z]+|mpi|z)\\.so")
 list(REMOVE_DUPLICATES dealii_libraries)
 target_link_options(isochor_libraries INTERFACE
   -Wl,--as-needed -Wl,--unresolved-symbols=ignore-in-shared-libs)

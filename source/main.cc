@@ -38,6 +38,9 @@ namespace
         ->allow_extra_args(false);
     app.add_option("--output", invocation.output, "folder for results")->type_name("DIR");
     app.add_flag("--overwrite", invocation.overwrite, "replace the results in that folder");
+    app.add_flag("--inf-sup",
+                 invocation.inf_sup,
+                 "also test the stability of the pressure: inf-sup constant and spurious modes");
     app.add_flag("--check", invocation.check_only, "read and check everything, then stop");
     app.add_flag("--parameters", parameters, "print the documented parameter template");
     app.add_flag("--version", version, "print versions of Isochor and its libraries");

@@ -23,9 +23,10 @@ namespace isochor
     if (!element.is_mixed() && !std::isfinite(moduli.kappa))
       throw std::logic_error("a displacement element needs a finite kappa");
 
-    const bool is_linear = discretisation.x_shape.degree() == 1 && element.kind == CellKind::simplex
-                           && discretisation.cells.all_affine;
-    if (is_linear)
+    const bool linear_cells = discretisation.x_shape.degree() == 1
+                              && element.kind == CellKind::simplex
+                              && discretisation.cells.all_affine;
+    if (linear_cells)
       kernel = make_linear_kernel<dim>(discretisation.cells.n_p);
     else
       kernel = make_quadrature_kernel(discretisation);
@@ -33,6 +34,12 @@ namespace isochor
 
   template <int dim>
   Elasticity<dim>::~Elasticity() = default;
+
+  template <int dim>
+  bool Elasticity<dim>::is_linear() const
+  {
+    return data.energy->is_linear() && data.volumetric_strain == VolumetricStrain::trace;
+  }
 
   template <int dim>
   Evaluation

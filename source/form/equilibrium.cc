@@ -50,8 +50,10 @@ namespace isochor
     const Material &material = scene.material;
     const Moduli    moduli   = isochor::moduli(material);
     is_compressible_         = std::isfinite(moduli.kappa);
-    internal                 = std::make_unique<Elasticity<dim>>(
+    auto elasticity          = std::make_unique<Elasticity<dim>>(
         discretisation, material.energy, material.volumetric_strain, moduli, compliance);
+    is_linear_ = elasticity->is_linear() && scene.pressures.empty();
+    internal   = std::move(elasticity);
     if (scene.gravity.norm() > 0)
       loads.push_back(
           std::make_unique<BodyForce<dim>>(discretisation, material.density, scene.gravity));

@@ -48,7 +48,7 @@ namespace isochor
         NewtonProblem::Size size;
         size.merit      = std::hypot(last_size.force, last_size.constraint);
         size.target     = std::max(tolerance, last_size.rounding);
-        size.admissible = last_size.min_jacobian > 0.;
+        size.admissible = equilibrium.is_linear() || last_size.min_jacobian > 0.;
 
         Vector       gap(x.get_partitioner());
         const double largest = equilibrium.prescribed().gap(x, load, gap);

@@ -157,6 +157,12 @@ namespace isochor
                       dealii::Patterns::Selection(vtu_output_names.selection()),
                       "Which states are written for ParaView: of every load step, the final one "
                       "only, none.");
+    prm.declare_entry("Inf-sup test",
+                      "false",
+                      dealii::Patterns::Bool(),
+                      "Also compute the inf-sup constant and the number of spurious pressure modes "
+                      "of a mixed element, at rest and in the final state (--inf-sup asks for the "
+                      "same). Several factorisations each.");
     prm.leave_subsection();
   }
 
@@ -164,8 +170,9 @@ namespace isochor
   {
     OutputOptions options;
     prm.enter_subsection("Output");
-    options.folder = prm.get("Folder");
-    options.vtu    = vtu_output_names.value(prm.get("VTU"), "Output/VTU");
+    options.folder  = prm.get("Folder");
+    options.vtu     = vtu_output_names.value(prm.get("VTU"), "Output/VTU");
+    options.inf_sup = prm.get_bool("Inf-sup test");
     prm.leave_subsection();
     return options;
   }

@@ -55,8 +55,8 @@ namespace isochor
                       const std::map<std::string, double> &known_values)
   {
     const std::size_t n = result.probe_columns.size();
-    ProbeErrors       errors{ std::vector<std::optional<double>>(n),
-                        std::vector<std::optional<double>>(n) };
+    ProbeErrors       errors{std::vector<std::optional<double>>(n),
+                       std::vector<std::optional<double>>(n)};
     if (!result.converged())
       return errors;
     for (std::size_t k = 0; k < n; ++k)
@@ -114,6 +114,13 @@ namespace isochor
     add("volume ratio", csv_number(result.volume_ratio));
     add("min J", csv_number(result.march.size.min_jacobian));
     add("pressure oscillation", optional_number(result.oscillation));
+    for (const auto &[name, test] : {std::pair("at rest", &result.inf_sup_at_rest),
+                                     std::pair("at the end", &result.inf_sup_at_end)})
+      {
+        add(std::string("inf-sup constant ") + name, *test ? csv_number((*test)->constant) : "");
+        add(std::string("spurious modes ") + name,
+            *test ? std::to_string((*test)->spurious_modes) : "");
+      }
     add("min angle [deg]", csv_number(result.quality.min_angle));
     add("max aspect", csv_number(result.quality.max_aspect));
     add("negative pivots excess",
@@ -146,7 +153,7 @@ namespace isochor
               break;
             }
       }
-    for (const char *name : { "Newton", "seconds", "status" })
+    for (const char *name : {"Newton", "seconds", "status"})
       header.emplace_back(name);
 
     std::vector<std::vector<std::string>> rows;
@@ -197,6 +204,12 @@ namespace isochor
           << " more than pressure unknowns\n";
     if (result.oscillation)
       out << "pressure CB        " << number(*result.oscillation, "%.3f") << '\n';
+    for (const auto &[name, test] : {std::pair("inf-sup at rest   ", &result.inf_sup_at_rest),
+                                     std::pair("inf-sup at the end", &result.inf_sup_at_end)})
+      if (*test)
+        out << name << " beta = " << number((*test)->constant, "%.4f") << ", "
+            << (*test)->spurious_modes << " spurious pressure modes"
+            << ((*test)->has_hydrostatic_mode ? " and the constant pressure" : "") << '\n';
     out << "seconds            ";
     for (std::size_t k = 0; k < result.seconds.size(); ++k)
       out << name_of(static_cast<Phase>(k)) << ' ' << number(result.seconds[k], "%.3f") << ", ";

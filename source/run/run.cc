@@ -3,12 +3,11 @@
 #include <isochor/output/vtu.h>
 #include <isochor/run/interrupt.h>
 #include <isochor/run/progress.h>
-#include <isochor/run/run.h>
+#include <isochor/run/warnings.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <fstream>
-#include <sstream>
 
 namespace isochor
 {
@@ -25,35 +24,6 @@ namespace isochor
       dealii::Utilities::System::MemoryStats memory;
       dealii::Utilities::System::get_memory_stats(memory);
       return dealii::Utilities::MPI::max(memory.VmHWM / 1024., communicator);
-    }
-
-    std::vector<std::string> warnings_of(const RunResult &result, const Element &element)
-    {
-      std::vector<std::string> warnings;
-      const auto               add = [&](const auto &...parts) {
-        std::ostringstream text;
-        (text << ... << parts);
-        warnings.push_back(text.str());
-      };
-      if (result.linear.pivot_excess.value_or(0) > 0)
-        add("the equilibrium is not stable: ",
-            *result.linear.pivot_excess,
-            " negative pivots too many; the body would buckle or snap into another shape");
-      if (result.linear.pivot_excess.value_or(0) < 0 || result.linear.null_pivots > 0)
-        add("the pressure is not determined: ",
-            result.linear.null_pivots,
-            " null pivots (spurious pressure modes); choose P2-P1, or a Poisson ratio a little "
-            "below 0.5");
-      if (result.oscillation.value_or(0) > 0.5)
-        add("the pressure oscillates (CB = ",
-            *result.oscillation,
-            "): trust the displacements of ",
-            element.name,
-            ", not its pressures",
-            element.displacement.degree > element.pressure->degree
-                ? "; refine the mesh"
-                : "; choose P2-P1 for pressures");
-      return warnings;
     }
 
     /// Load-displacement history: steps.csv.
@@ -131,6 +101,17 @@ namespace isochor
     Vector             state = discretisation.make_vector(), scratch(state), reactions(state);
     state.update_ghost_values();
 
+    const auto stability = [&]() {
+      const auto scope = stopwatch.measure(Phase::output);
+      return inf_sup(discretisation,
+                     equilibrium.prescribed(),
+                     scene.material.volumetric_strain,
+                     method.compliance.stabilisation,
+                     state);
+    };
+    if (settings.inf_sup)
+      result.inf_sup_at_rest = stability();
+
     VtuSeries<dim> vtu(discretisation, scene.material, settings.folder);
     StepTable      steps(settings, probes.columns());
     const auto     measure = [&](const double load) {
@@ -168,6 +149,8 @@ namespace isochor
       result.volume_ratio = deformed_volume(discretisation, state) / mesh->quality.total_volume;
       result.oscillation  = pressure_oscillation(discretisation, state);
     }
+    if (settings.inf_sup)
+      result.inf_sup_at_end = stability();
     result.status = run_status_names.name(result.march.status);
     result.reason = result.march.reason;
     result.linear = tangent_solver.statistics();
@@ -176,7 +159,8 @@ namespace isochor
           = dealii::Utilities::MPI::max(stopwatch.seconds(static_cast<Phase>(k)), communicator);
     result.seconds_total  = dealii::Utilities::MPI::max(stopwatch.total(), communicator);
     result.peak_megabytes = peak_megabytes(communicator);
-    result.warnings       = warnings_of(result, method.element);
+    result.warnings
+        = warnings_of(result, method.element, scene.material, trust_figures(equilibrium, state));
     return result;
   }
 

@@ -109,7 +109,9 @@ namespace isochor
     {
       const auto scene  = Scene<dim>::parse(prm, fs::absolute(invocation.file).parent_path());
       const auto method = Method::parse(prm);
-      settings.vtu      = OutputOptions::parse(prm).vtu;
+      const auto output = OutputOptions::parse(prm);
+      settings.vtu      = output.vtu;
+      settings.inf_sup |= output.inf_sup;
       return run(scene, method, settings);
     }
 
@@ -198,6 +200,7 @@ namespace isochor
       {
         RunSettings settings{communicator, folder};
         settings.show_steps = talks && !plan.is_study();
+        settings.inf_sup    = invocation.inf_sup;
         if (plan.is_study())
           {
             settings.folder = folder / run_folder_name(index);

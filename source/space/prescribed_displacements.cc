@@ -40,10 +40,10 @@ namespace isochor
     for (const LocalIndex unknown : owned)
       flags.local_element(unknown) = 1.;
     flags.update_ghost_values();
-    is_prescribed.resize(discretisation.partitioner->locally_owned_size()
+    is_prescribed_.resize(discretisation.partitioner->locally_owned_size()
                          + discretisation.partitioner->n_ghost_indices());
-    for (std::size_t i = 0; i < is_prescribed.size(); ++i)
-      is_prescribed[i] = flags.local_element(i) != 0.;
+    for (std::size_t i = 0; i < is_prescribed_.size(); ++i)
+      is_prescribed_[i] = flags.local_element(i) != 0.;
   }
 
   template <int dim>
@@ -196,11 +196,11 @@ namespace isochor
     const auto &row_start = matrix.row_start();
     for (LocalIndex row = 0; row < matrix.n_rows(); ++row)
       {
-        if (is_prescribed[row])
+        if (is_prescribed_[row])
           continue;
         double moved = 0;
         for (std::size_t k = row_start[row]; k < row_start[row + 1]; ++k)
-          if (is_prescribed[columns[k]])
+          if (is_prescribed_[columns[k]])
             {
               moved += values[k] * gap.local_element(columns[k]);
               values[k] = 0.;

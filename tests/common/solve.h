@@ -22,10 +22,11 @@ namespace isochor::testing
 
   struct SolveOptions
   {
-    unsigned int  load_steps   = 1;
-    double        tolerance    = 1e-12;
-    double        minimum_step = 0.05;
-    LinearOptions linear;
+    unsigned int      load_steps   = 1;
+    double            tolerance    = 1e-12;
+    double            minimum_step = 0.05;
+    ComplianceOptions compliance;
+    LinearOptions     linear;
   };
 
   template <int dim>
@@ -35,9 +36,12 @@ namespace isochor::testing
                       const SolveOptions        &options = {})
   {
     const Equilibrium<dim> equilibrium(
-        discretisation, scene, [&](const std::string &name, const std::string &what) {
+        discretisation,
+        scene,
+        [&](const std::string &name, const std::string &what) {
           return mesh.boundary_id(name, what);
-        });
+        },
+        options.compliance);
     Stopwatch          stopwatch;
     TangentSolver<dim> tangent_solver(equilibrium, options.linear, stopwatch);
 

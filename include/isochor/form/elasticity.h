@@ -56,6 +56,9 @@ namespace isochor
 
     Evaluation add(const Vector &state, double load, const Target &target) const override;
 
+    /// Small-strain elasticity: the residual is affine in the state.
+    bool is_linear() const;
+
     /// A loop over cells, compiled for one number of displacement and pressure nodes.
     class Kernel;
 

@@ -51,6 +51,11 @@ namespace isochor
     {
       return prescribed_;
     }
+    /// Is the residual affine in the state? Then the sign of J means nothing.
+    bool is_linear() const
+    {
+      return is_linear_;
+    }
     /// Is kappa finite, and the compliance matrix not zero?
     bool is_compressible() const
     {
@@ -74,8 +79,9 @@ namespace isochor
     std::unique_ptr<Term>              internal;
     std::vector<std::unique_ptr<Term>> loads;
     bool                               is_compressible_ = true;
-    double                             volume_scale    = 0; ///< |int N_p|
-    double                             stiffness_scale = 0; ///< |diagonal of the tangent at rest|
-    double                             cell_size       = 0; ///< mean over the cells, m
+    bool                               is_linear_       = false;
+    double                             volume_scale     = 0; ///< |int N_p|
+    double                             stiffness_scale  = 0; ///< |diagonal of the tangent at rest|
+    double                             cell_size        = 0; ///< mean over the cells, m
   };
 } // namespace isochor

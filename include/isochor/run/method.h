@@ -37,7 +37,8 @@ namespace isochor
   struct OutputOptions
   {
     std::string folder; ///< empty: results/<stem of the parameter file>
-    VtuOutput   vtu = VtuOutput::every_step;
+    VtuOutput   vtu     = VtuOutput::every_step;
+    bool        inf_sup = false; ///< test the pressure's stability
 
     static void          declare(dealii::ParameterHandler &prm);
     static OutputOptions parse(dealii::ParameterHandler &prm);

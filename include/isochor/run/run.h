@@ -2,6 +2,7 @@
 
 // Run: Scene x Method -> Result.
 
+#include <isochor/measure/inf_sup.h>
 #include <isochor/measure/probes.h>
 #include <isochor/mesh/raw_mesh.h>
 #include <isochor/run/method.h>
@@ -27,6 +28,7 @@ namespace isochor
     std::vector<double>                              probe_values;
     double                                           volume_ratio = 1; ///< deformed / reference
     std::optional<double>                            oscillation;
+    std::optional<InfSup>                            inf_sup_at_rest, inf_sup_at_end;
     MeshQuality                                      quality;
     std::vector<std::string>                         warnings; ///< plain words for the user
 
@@ -42,6 +44,7 @@ namespace isochor
     std::filesystem::path folder; ///< for VTU files and steps.csv; exists
     VtuOutput             vtu        = VtuOutput::every_step;
     bool                  check_only = false; ///< everything up to the first load step
+    bool                  inf_sup    = false; ///< test at rest and in the final state
     bool                  show_steps = false; ///< a line per load step on std::cout of rank 0
     /// Called when the input has proved good, before anything is written. Collective.
     std::function<void()> before_output = [] {};

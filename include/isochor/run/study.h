@@ -16,6 +16,7 @@ namespace isochor
     std::string              output;    ///< folder; empty: as the file says
     bool                     overwrite  = false;
     bool                     check_only = false;
+    bool                     inf_sup    = false;
   };
 
   /// Declares all subsections: Scene, Method, Output, Study.

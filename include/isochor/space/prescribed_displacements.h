@@ -30,6 +30,12 @@ namespace isochor
       return owned;
     }
 
+    /// By local index, ghosts included.
+    bool is_prescribed(const LocalIndex unknown) const
+    {
+      return is_prescribed_[unknown];
+    }
+
     /// gap = prescribed displacement at @p load minus that of @p state on the prescribed unknowns,
     /// zero elsewhere; ghosts updated. Returns the largest magnitude over all ranks, metres.
     double gap(const Vector &state, double load, Vector &gap) const;
@@ -57,7 +63,7 @@ namespace isochor
     std::vector<Support<dim>> supports;
     std::vector<Entry>        entries;       ///< owned, one per unknown, ascending
     std::vector<LocalIndex>   owned;         ///< unknowns of entries
-    std::vector<char>         is_prescribed; ///< by local index, ghosts included
+    std::vector<char>         is_prescribed_; ///< by local index, ghosts included
     MPI_Comm                  communicator;
   };
 } // namespace isochor

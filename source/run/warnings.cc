@@ -1,0 +1,198 @@
+#include <isochor/element/cell_quadrature.h>
+#include <isochor/material/advice.h>
+#include <isochor/run/warnings.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace isochor
+{
+  namespace
+  {
+    // Above this ratio of kappa to mu (nu = 0.475), linear simplices lose more than a few percent.
+    constexpr double stiff_volume = 20.;
+
+    /// Elements of a kind of cells that pass the inf-sup test.
+    std::string stable_elements(const CellKind kind)
+    {
+      return kind == CellKind::simplex ? "P2-P1, MINI or P1-P1s" : "Q2-P1";
+    }
+
+    template <int dim>
+    std::size_t clamped_cells(const Equilibrium<dim> &equilibrium)
+    {
+      const CellTables<dim> &cells = equilibrium.discretisation().cells;
+      std::size_t            n     = 0;
+      for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
+        {
+          bool all = true;
+          for (unsigned int v = 0; v < n_vertices(cells.kind, dim); ++v)
+            for (unsigned int c = 0; c < dim; ++c)
+              all = all
+                    && equilibrium.prescribed().is_prescribed(cells.x[cell * cells.n_x + v] + c);
+          n += all;
+        }
+      return dealii::Utilities::MPI::sum(n, equilibrium.discretisation().communicator());
+    }
+
+    template <int dim>
+    DeformationRange deformation_range(const Discretisation<dim> &discretisation,
+                                       const Vector              &state)
+    {
+      const CellTables<dim> &cells = discretisation.cells;
+      const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.quadrature_degree());
+      const GeometryTable<dim> geometry(cells, quadrature.get_points());
+
+      // Points of several cells fill one batch.
+      DeformationRange range;
+      Deformation      batch;
+      unsigned int     lane  = 0;
+      const auto       flush = [&]() {
+        for (unsigned int empty = lane; empty < n_lanes; ++empty)
+          for (int k = 0; k < 9; ++k)
+            batch.F[k][empty] = k % 4 == 0;
+        batch.complete();
+        range.include(batch, lane);
+        lane = 0;
+      };
+      for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            const auto map = geometry.map(cell, q);
+            for (int k = 0; k < 9; ++k)
+              batch.F[k][lane] = k % 4 == 0;
+            for (unsigned int a = 0; a < cells.n_x; ++a)
+              {
+                const auto gradient
+                    = discretisation.x_shape.gradient(a, quadrature.point(q)) * map.inverse;
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int J = 0; J < dim; ++J)
+                    batch.F[3 * i + J][lane]
+                        += state.local_element(cells.x[cell * cells.n_x + a] + i) * gradient[J];
+              }
+            if (++lane == n_lanes)
+              flush();
+          }
+      if (lane > 0)
+        flush();
+
+      const MPI_Comm communicator = discretisation.communicator();
+      range.smallest_stretch = dealii::Utilities::MPI::min(range.smallest_stretch, communicator);
+      range.largest_rotation = dealii::Utilities::MPI::max(range.largest_rotation, communicator);
+      return range;
+    }
+
+    class Sentences
+    {
+    public:
+      template <typename... Parts>
+      void add(const Parts &...parts)
+      {
+        std::ostringstream text;
+        text.precision(3);
+        (text << ... << parts);
+        sentences.push_back(text.str());
+      }
+
+      std::vector<std::string> sentences;
+    };
+
+    void say_stability(Sentences       &out,
+                       const RunResult &result,
+                       const Element   &element,
+                       const double     poisson_ratio)
+    {
+      const std::string stable = stable_elements(element.kind);
+      for (const auto &[test, when] : {std::pair(&result.inf_sup_at_rest, "at rest"),
+                                       std::pair(&result.inf_sup_at_end, "in the final state")})
+        if (*test && (*test)->spurious_modes > 0)
+          out.add((*test)->spurious_modes,
+                  " pressure modes are spurious ",
+                  when,
+                  ": no displacement of ",
+                  element.name,
+                  " feels them on this mesh; do not trust the pressures, choose ",
+                  stable);
+
+      const auto excess = result.linear.pivot_excess.value_or(0);
+      if (excess > 0)
+        out.add("the equilibrium is not stable: ",
+                excess,
+                " negative pivots too many; the body would buckle or snap into another shape");
+      if (excess < 0 || result.linear.null_pivots > 0)
+        out.add("the pressure is not determined: ",
+                result.linear.null_pivots,
+                " null pivots (spurious pressure modes) of ",
+                element.name,
+                " on this mesh; choose ",
+                stable,
+                poisson_ratio == 0.5 ? ", or a Poisson ratio a little below 0.5" : "");
+    }
+
+    void say_pressure(Sentences &out, const RunResult &result, const Element &element)
+    {
+      if (result.oscillation.value_or(0) > 0.5)
+        out.add("the pressure oscillates (CB = ",
+                *result.oscillation,
+                "): trust the displacements of ",
+                element.name,
+                ", not its pressures; for pressures choose ",
+                stable_elements(element.kind));
+    }
+
+    void say_locking(Sentences &out, const Element &element, const Material &material)
+    {
+      const bool constant_strain = element.kind == CellKind::simplex
+                                   && element.displacement.family == Family::lagrange
+                                   && element.displacement.degree == 1
+                                   && (!element.is_mixed() || element.has_discontinuous_pressure());
+      if (!constant_strain)
+        return;
+      const Moduli m = moduli(material);
+      if (m.kappa > stiff_volume * m.mu)
+        out.add(element.name,
+                " locks at Poisson ratio ",
+                material.poisson_ratio,
+                ": each cell keeps its own volume, and the displacements may be far too small; "
+                "choose P1-P1, or ",
+                stable_elements(element.kind));
+    }
+  } // namespace
+
+  template <int dim>
+  TrustFigures trust_figures(const Equilibrium<dim> &equilibrium, const Vector &state)
+  {
+    state.update_ghost_values();
+    return {clamped_cells(equilibrium), deformation_range(equilibrium.discretisation(), state)};
+  }
+
+  std::vector<std::string> warnings_of(const RunResult    &result,
+                                       const Element      &element,
+                                       const Material     &material,
+                                       const TrustFigures &figures)
+  {
+    Sentences out;
+    out.sentences       = advice(material);
+    const auto weakness = make_distortional_energy(material.energy, moduli(material))
+                              ->weakness(figures.deformation);
+    if (!weakness.empty())
+      out.sentences.push_back(weakness);
+    say_locking(out, element, material);
+    say_stability(out, result, element, material.poisson_ratio);
+    say_pressure(out, result, element);
+    // Taylor-Hood needs an interior vertex in every cell.
+    const bool taylor_hood = element.pressure && element.pressure->family == Family::lagrange
+                             && element.displacement.family == Family::lagrange
+                             && element.displacement.degree > 1;
+    if (taylor_hood && figures.clamped_cells > 0)
+      out.add(figures.clamped_cells,
+              " cells have all their vertices held: ",
+              element.name,
+              " loses its stability there; refine the mesh at the support, or choose MINI or "
+              "P1-P1s");
+    return out.sentences;
+  }
+
+  template TrustFigures trust_figures(const Equilibrium<2> &, const Vector &);
+  template TrustFigures trust_figures(const Equilibrium<3> &, const Vector &);
+} // namespace isochor
