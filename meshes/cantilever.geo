@@ -1,7 +1,8 @@
 // A cantilever of 1 x 0.1 x 0.1 m along x, one corner at the origin.
-// Unstructured Delaunay tetrahedra of one edge length.
+// Unstructured Delaunay tetrahedra of one edge length; or hexahedra, bricks of about that length.
 
-DefineConstant[ size = 0.05 ]; // edge length, m
+DefineConstant[ size = 0.05 ];   // edge length, m
+DefineConstant[ hexahedra = 0 ]; // 1: hexahedra
 
 length = 1.0; // m
 width  = 0.1; // m, along y and z
@@ -18,6 +19,17 @@ Physical Surface("top")    = {4};
 Physical Surface("back")   = {5};
 Physical Surface("front")  = {6};
 Physical Volume("body")    = {1};
+
+If (hexahedra)
+  For i In {1:12}
+    box() = BoundingBox Curve{i}; // three minima, three maxima
+    edge  = box(3) - box(0) + box(4) - box(1) + box(5) - box(2); // one of them is not zero
+    Transfinite Curve{i} = Max(1, Floor(edge / size + 0.5)) + 1;
+  EndFor
+  Transfinite Surface{:};
+  Recombine Surface{:};
+  Transfinite Volume{:};
+EndIf
 
 Mesh.Algorithm   = 6; // Frontal-Delaunay on the sides
 Mesh.Algorithm3D = 1; // Delaunay inside

@@ -1,28 +1,20 @@
+#include <isochor/mesh/cell_geometry.h>
+#include <isochor/mesh/generator.h>
 #include <isochor/mesh/gmsh_reader.h>
+
+#include "cell_order.h"
+#include "gmsh_elements.h"
+#include "gmsh_session.h"
 
 #include <gmsh.h>
 
 #include <algorithm>
-#include <clocale>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
-#include <sstream>
 #include <unordered_map>
-
-#include <unistd.h>
-
-// gmsh brings the OpenMP runtime along and sets its number of threads to one for good. Weak, so that
-// nothing depends on OpenMP where gmsh is built without it.
-extern "C"
-{
-  int  omp_get_max_threads() __attribute__((weak));
-  void omp_set_num_threads(int) __attribute__((weak));
-}
 
 namespace isochor
 {
@@ -30,191 +22,19 @@ namespace isochor
   {
     namespace fs = std::filesystem;
 
-    template <int dim>
-    const std::string cells_word = dim == 2 ? "triangles" : "tetrahedra";
-
-    // gmsh's numbers of first-order simplices by dimension: line, triangle, tetrahedron.
-    constexpr std::array<int, 4> simplex_type = {15, 1, 2, 4};
-
-    // gmsh from start to end: silent, one thread, a log instead of a terminal. A static: gmsh is one
-    // global state. What gmsh throws is a std::string, which nobody else would catch.
-    class Session
-    {
-    public:
-      Session()
-        : threads(omp_get_max_threads ? omp_get_max_threads() : 0)
-        , locale(std::setlocale(LC_ALL, nullptr))
-      {
-        // No ~/.gmshrc: the mesh depends on the file and the size alone.
-        gmsh::initialize(0, nullptr, false);
-        gmsh::option::setNumber("General.Terminal", 0);
-        gmsh::option::setNumber("General.NumThreads", 1);
-        gmsh::option::setNumber("Mesh.RandomSeed", 1);
-        gmsh::logger::start();
-      }
-      ~Session()
-      {
-        try
-          {
-            gmsh::logger::stop();
-            gmsh::finalize();
-          }
-        catch (...)
-          {
-          }
-        if (omp_set_num_threads && threads > 0)
-          omp_set_num_threads(threads);
-        std::setlocale(LC_ALL, locale.c_str()); // gmsh takes the user's
-      }
-      Session(const Session &)            = delete;
-      Session &operator=(const Session &) = delete;
-
-      // Run @p action; what gmsh complains of becomes a UserError.
-      template <typename Action>
-      void guarded(const std::string &origin, const Action &action) const
-      {
-        std::string message;
-        try
-          {
-            action();
-            return;
-          }
-        catch (const std::string &text)
-          {
-            message = text;
-          }
-        catch (const UserError &)
-          {
-            throw;
-          }
-        catch (const std::exception &error)
-          {
-            message = error.what();
-          }
-        catch (...)
-          {
-          }
-        if (message.empty())
-          message = last_error();
-        throw UserError(origin + ": gmsh says: " + message);
-      }
-
-    private:
-      static std::string last_error()
-      {
-        std::vector<std::string> log;
-        gmsh::logger::get(log);
-        const std::string mark = "Error: ";
-        for (auto line = log.rbegin(); line != log.rend(); ++line)
-          if (line->rfind(mark, 0) == 0)
-            return line->substr(mark.size());
-        return "(nothing)";
-      }
-
-      int         threads;
-      std::string locale;
-    };
-
-    // A file that is removed at the end of its scope.
-    class TemporaryFile
-    {
-    public:
-      TemporaryFile(const std::string &text, const std::string &suffix)
-      {
-        std::string name   = (fs::temp_directory_path() / ("isochor-XXXXXX" + suffix)).string();
-        const int   handle = mkstemps(name.data(), suffix.size());
-        if (handle < 0)
-          throw UserError("cannot write a temporary file in '" + fs::temp_directory_path().string()
-                          + "'");
-        close(handle);
-        path = name;
-        std::ofstream(path) << text;
-      }
-      ~TemporaryFile()
-      {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-      }
-      TemporaryFile(const TemporaryFile &)            = delete;
-      TemporaryFile &operator=(const TemporaryFile &) = delete;
-
-      std::string path;
-    };
-
-    // Does the .geo file let its parameter `size` be set from outside?
-    bool has_size_parameter(const std::string &path)
-    {
-      std::ifstream     file(path);
-      std::stringstream text;
-      text << file.rdbuf();
-      std::string source = text.str();
-      // Comments first: the second pattern must not see a DefineConstant that is out of use.
-      // (Not by std::regex: it recurses per character and overflows the stack on long files.)
-      for (std::size_t begin = 0; (begin = source.find('/', begin)) != std::string::npos;)
-        {
-          std::size_t end = std::string::npos;
-          if (source.compare(begin, 2, "//") == 0)
-            end = source.find('\n', begin);
-          else if (source.compare(begin, 2, "/*") == 0)
-            end = source.find("*/", begin + 2) == std::string::npos
-                      ? std::string::npos
-                      : source.find("*/", begin + 2) + 2;
-          else
-            {
-              ++begin;
-              continue;
-            }
-          source.replace(begin, end == std::string::npos ? end : end - begin, " ");
-        }
-      static const std::regex size(R"((^|[\s,\[])size\s*(=|,|$))");
-      for (std::size_t begin = 0;
-           (begin = source.find("DefineConstant", begin)) != std::string::npos;
-           ++begin)
-        {
-          const std::size_t open  = source.find('[', begin);
-          const std::size_t close = source.find(']', begin);
-          if (open < close && close != std::string::npos
-              && std::regex_search(source.substr(open + 1, close - open - 1), size))
-            return true;
-        }
-      return false;
-    }
-
-    // Through a file of ours that includes the user's. A constant that exists before DefineConstant
-    // wins; given on gmsh's command line (-setnumber) it would outlive gmsh::finalize(). And a last
-    // line without a newline is lost if gmsh 4.8 opens the file itself, an endless loop if it
-    // merges it, but sound if it includes it.
-    void
-    open_geometry(const Session &session, const MeshRequest &request, const std::string &origin)
-    {
-      if (request.source.find('"') != std::string::npos)
-        throw UserError(origin + ": gmsh takes no double quotes in file names");
-      const bool         sized = request.size > 0;
-      const bool         named = sized && has_size_parameter(request.source);
-      std::ostringstream text;
-      text.precision(17);
-      if (named)
-        text << "size = " << request.size << ";\n";
-      text << "Include \"" << fs::absolute(request.source).string() << "\";\n";
-      const TemporaryFile wrapper(text.str(), ".geo");
-      session.guarded(origin, [&] {
-        gmsh::open(wrapper.path);
-        if (sized && !named)
-          {
-            gmsh::option::setNumber("Mesh.MeshSizeMin", request.size);
-            gmsh::option::setNumber("Mesh.MeshSizeMax", request.size);
-          }
-      });
-    }
+    using Tags = std::vector<std::size_t>;
 
     // Copies of what gmsh holds, with vertices numbered as they come.
     template <int dim>
     class Reader
     {
     public:
-      Reader(const std::string &origin)
-        : origin(origin)
+      Reader(const MeshRequest &request, const std::string &origin)
+        : request(request)
+        , origin(origin)
       {
+        mesh.kind           = request.kind;
+        mesh.geometry.order = request.geometry_order;
       }
 
       RawMesh<dim> read()
@@ -226,13 +46,15 @@ namespace isochor
       }
 
     private:
-      using Tags     = std::vector<std::size_t>;
-      using Entities = std::vector<int>;
+      // Of one entity: node numbers by type of element.
+      using Elements = std::map<int, Tags>;
 
+      const MeshRequest                                     &request;
       const std::string                                      origin;
       RawMesh<dim>                                           mesh;
       std::unordered_map<std::size_t, std::array<double, 3>> positions;
       std::unordered_map<std::size_t, unsigned int>          vertex_of_node;
+      double                                                 extent = 0, height = 0; ///< x and y; z
 
       void read_positions()
       {
@@ -244,55 +66,45 @@ namespace isochor
           positions[nodes[i]] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
       }
 
-      static Entities entities_of_group(const int dimension, const int group)
+      static std::vector<int> entities_of_group(const int dimension, const int group)
       {
-        Entities entities;
+        std::vector<int> entities;
         gmsh::model::getEntitiesForPhysicalGroup(dimension, group, entities);
         return entities;
       }
 
-      // Node numbers of the first-order simplices of one entity; anything else is refused.
-      Tags simplices(const int dimension, const int entity) const
+      static Elements elements_of_entity(const int dimension, const int entity)
       {
         std::vector<int>  types;
         std::vector<Tags> elements, nodes;
         gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
-        Tags found;
+        Elements found;
         for (std::size_t i = 0; i < types.size(); ++i)
-          {
-            if (types[i] == simplex_type[dimension])
-              {
-                found.insert(found.end(), nodes[i].begin(), nodes[i].end());
-                continue;
-              }
-            std::string         name;
-            int                 d, order, n, n_primary;
-            std::vector<double> local;
-            gmsh::model::mesh::getElementProperties(types[i], name, d, order, n, local, n_primary);
-            throw UserError(
-                origin + ": it holds " + std::to_string(elements[i].size()) + " elements of type '"
-                + name + "'; only first-order " + cells_word<dim> + " can be used ("
-                + (order > 1 ? "in the .geo file: Mesh.ElementOrder = 1"
-                             : "in the .geo file: no Recombine, no extruded layers with it")
-                + ")");
-          }
+          if (!elements[i].empty())
+            found[types[i]] = nodes[i];
         return found;
+      }
+
+      dealii::Point<dim> position(const std::size_t node)
+      {
+        const auto entry = positions.find(node);
+        if (entry == positions.end())
+          throw UserError(origin + ": a cell refers to node " + std::to_string(node)
+                          + ", which does not exist");
+        const auto        &x = entry->second;
+        dealii::Point<dim> point;
+        for (unsigned int d = 0; d < dim; ++d)
+          point[d] = x[d];
+        extent = std::max({extent, std::abs(x[0]), std::abs(x[1])});
+        height = std::max(height, std::abs(x[2]));
+        return point;
       }
 
       unsigned int vertex(const std::size_t node)
       {
         const auto [entry, is_new] = vertex_of_node.try_emplace(node, mesh.vertices.size());
         if (is_new)
-          {
-            const auto position = positions.find(node);
-            if (position == positions.end())
-              throw UserError(origin + ": a cell refers to node " + std::to_string(node)
-                              + ", which does not exist");
-            dealii::Point<dim> point;
-            for (unsigned int d = 0; d < dim; ++d)
-              point[d] = position->second[d];
-            mesh.vertices.push_back(point);
-          }
+          mesh.vertices.push_back(position(node));
         return entry->second;
       }
 
@@ -310,26 +122,43 @@ namespace isochor
           for (const auto &[d, entity] : all)
             entities.insert(entity);
 
+        std::vector<Elements>      parts;
+        std::map<int, std::size_t> n_cells;
         for (const int entity : entities)
           {
-            const Tags        nodes = simplices(dim, entity);
-            const std::size_t first = mesh.cells.size();
-            for (std::size_t i = 0; i < nodes.size(); i += dim + 1)
-              {
-                dealii::CellData<dim> cell(dim + 1);
-                for (unsigned int v = 0; v <= dim; ++v)
-                  cell.vertices[v] = vertex(nodes[i + v]);
-                mesh.cells.push_back(cell);
-              }
-            if constexpr (dim == 2)
-              face_upwards(first);
+            parts.push_back(elements_of_entity(dim, entity));
+            for (const auto &[type, nodes] : parts.back())
+              n_cells[type] += nodes.size() / ElementType(type).n_nodes;
+          }
+        check_types<dim>(n_cells, request, origin);
+        for (const Elements &part : parts)
+          for (const auto &[type, nodes] : part)
+            add_cells(ElementType(type), nodes);
+        if (dim == 2 && height > 1e-10 * extent)
+          throw UserError(origin + ": a two-dimensional mesh must lie in the plane z = 0");
+      }
+
+      void add_cells(const ElementType &type, const Tags &nodes)
+      {
+        const auto  order = node_order<dim>(type, mesh.kind, mesh.geometry.order);
+        const auto  n     = n_vertices(mesh.kind, dim);
+        std::size_t first = mesh.cells.size();
+        for (std::size_t i = 0; i < nodes.size(); i += order.size())
+          {
+            dealii::CellData<dim> cell(n);
+            for (unsigned int v = 0; v < n; ++v)
+              cell.vertices[v] = vertex(nodes[i + order[v]]);
+            mesh.cells.push_back(cell);
+            if (mesh.geometry.order == 2)
+              for (const unsigned int place : order)
+                mesh.geometry.points.push_back(position(nodes[i + place]));
           }
         if constexpr (dim == 2)
-          check_plane();
+          face_upwards(first);
       }
 
       // A plane surface whose curves go clockwise has its normal downwards in gmsh, and all its
-      // triangles with it. That is no fault.
+      // cells with it. That is no fault.
       void face_upwards(const std::size_t first)
       {
         const auto downwards = [&](const dealii::CellData<dim> &cell) {
@@ -338,22 +167,12 @@ namespace isochor
           const auto  b = mesh.vertices[cell.vertices[2]] - p;
           return a[0] * b[1] - a[1] * b[0] < 0;
         };
-        if (std::all_of(mesh.cells.begin() + first, mesh.cells.end(), downwards))
-          for (std::size_t i = first; i < mesh.cells.size(); ++i)
-            std::swap(mesh.cells[i].vertices[1], mesh.cells[i].vertices[2]);
-      }
-
-      void check_plane() const
-      {
-        double extent = 0, height = 0;
-        for (const auto &[node, vertex] : vertex_of_node)
-          {
-            const auto &x = positions.at(node);
-            extent        = std::max({extent, std::abs(x[0]), std::abs(x[1])});
-            height        = std::max(height, std::abs(x[2]));
-          }
-        if (height > 1e-10 * extent)
-          throw UserError(origin + ": a two-dimensional mesh must lie in the plane z = 0");
+        if (!std::all_of(mesh.cells.begin() + first, mesh.cells.end(), downwards))
+          return;
+        std::vector<unsigned int> mirrored = {0, 2, 1, 3};
+        mirrored.resize(n_vertices(mesh.kind, dim));
+        for (std::size_t i = first; i < mesh.cells.size(); ++i)
+          renumber_vertices(mesh, i, mirrored);
       }
 
       void read_boundaries()
@@ -371,7 +190,8 @@ namespace isochor
             if (id == static_cast<std::ptrdiff_t>(mesh.names.size()))
               mesh.names.push_back(name);
             for (const int entity : entities_of_group(dim - 1, group))
-              add_faces(simplices(dim - 1, entity), id);
+              for (const auto &[type, nodes] : elements_of_entity(dim - 1, entity))
+                add_faces(ElementType(type), nodes, id);
           }
         if (mesh.names.empty())
           throw UserError(origin + ": no boundary has a name"
@@ -380,12 +200,14 @@ namespace isochor
                           + (dim == 2 ? "Curve" : "Surface") + "(\"left\") = {1};");
       }
 
-      void add_faces(const Tags &nodes, const dealii::types::boundary_id id)
+      void
+      add_faces(const ElementType &type, const Tags &nodes, const dealii::types::boundary_id id)
       {
-        for (std::size_t i = 0; i < nodes.size(); i += dim)
+        for (std::size_t i = 0; i < nodes.size(); i += type.n_nodes)
           {
-            dealii::CellData<dim - 1> face(dim);
-            for (unsigned int v = 0; v < dim; ++v)
+            // gmsh's order: the check of the mesh looks for the set of vertices only.
+            dealii::CellData<dim - 1> face(type.n_vertices);
+            for (int v = 0; v < type.n_vertices; ++v)
               {
                 const auto vertex = vertex_of_node.find(nodes[i + v]);
                 if (vertex == vertex_of_node.end())
@@ -394,10 +216,7 @@ namespace isochor
                 face.vertices[v] = vertex->second;
               }
             face.boundary_id = id;
-            if constexpr (dim == 2)
-              mesh.boundary.boundary_lines.push_back(face);
-            else
-              mesh.boundary.boundary_quads.push_back(face);
+            boundary_faces(mesh).push_back(face);
           }
       }
     };
@@ -411,9 +230,13 @@ namespace isochor
         throw UserError(origin + ": that is a directory");
       const std::string ending = fs::path(path).extension();
       if (ending != ".geo" && ending != ".msh")
-        throw UserError(origin
-                        + ": a mesh is a .geo or .msh file of gmsh, or one of the generators "
-                          "box(lx, ly, lz), rectangle(lx, ly), quadrilateral(x0,y0, ..., x3,y3)");
+        {
+          std::vector<std::string> calls;
+          for (const GeneratorForm &form : generator_forms())
+            calls.push_back(form.call);
+          throw UserError(
+              origin + ": a mesh is a .geo or .msh file of gmsh, or a generator: " + listed(calls));
+        }
       if (!std::ifstream(path))
         throw UserError(origin + ": the file cannot be read");
       return ending;
@@ -441,7 +264,7 @@ namespace isochor
   {
     const std::string origin = "Mesh '" + request.source + "'";
     const std::string ending = check_file(request.source);
-    const Session     session;
+    const GmshSession session;
     RawMesh<dim>      mesh;
     if (ending == ".geo")
       {
@@ -453,6 +276,11 @@ namespace isochor
           for (const auto option : {"1D", "2D", "3D"})
             gmsh::option::setNumber("Mesh.MaxNumThreads" + std::string(option), 1);
           gmsh::model::mesh::generate(dim);
+          if (request.geometry_order == 2)
+            {
+              gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
+              gmsh::model::mesh::setOrder(2);
+            }
         });
       }
     else
@@ -460,7 +288,7 @@ namespace isochor
         gmsh::open(request.source);
         check_dimension(gmsh::model::getDimension(), dim, true, origin);
       });
-    session.guarded(origin, [&] { mesh = Reader<dim>(origin).read(); });
+    session.guarded(origin, [&] { mesh = Reader<dim>(request, origin).read(); });
     return mesh;
   }
 

@@ -1,3 +1,4 @@
+#include <isochor/mesh/cell_geometry.h>
 #include <isochor/mesh/mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -5,6 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <limits>
+#include <unordered_map>
 
 namespace isochor
 {
@@ -44,22 +46,47 @@ namespace isochor
         throw std::runtime_error("MPI could not hand out the mesh");
     }
 
-    // One description at a time is built and sent away, so that rank 0 holds the whole mesh and one
+    // What one rank gets.
+    template <int dim>
+    struct Part
+    {
+      Description<dim>                description;
+      std::vector<dealii::Point<dim>> nodes; ///< of the description's coarse cells, in their order
+    };
+
+    template <int dim>
+    Part<dim> part_of(const dealii::Triangulation<dim> &whole,
+                      const RawMesh<dim>               &raw,
+                      const unsigned int                rank,
+                      MPI_Comm                          communicator)
+    {
+      using namespace dealii::TriangulationDescription;
+      Part<dim> part{Utilities::create_description_from_triangulation(
+                         whole, communicator, Settings::default_setting, rank),
+                     {}};
+      // The number of a coarse cell of the whole mesh is that in the raw mesh.
+      const unsigned int n
+          = raw.geometry.order == 1 ? 0 : n_geometry_nodes<dim>(raw.kind, raw.geometry.order);
+      for (const auto cell : part.description.coarse_cell_index_to_coarse_cell_id)
+        for (unsigned int i = 0; i < n; ++i)
+          part.nodes.push_back(raw.geometry.points[cell * n + i]);
+      return part;
+    }
+
+    // One part at a time is built and sent away, so that rank 0 holds the whole mesh and one
     // part. (deal.II's create_description_from_triangulation_in_groups does the same, but
     // creates the mesh itself: an error there would leave the other ranks waiting.)
     template <int dim>
-    Description<dim> scatter(const dealii::Triangulation<dim> &whole, MPI_Comm communicator)
+    Part<dim>
+    scatter(const dealii::Triangulation<dim> &whole, const RawMesh<dim> &raw, MPI_Comm communicator)
     {
-      using namespace dealii::TriangulationDescription;
-      const auto describe = [&](const unsigned int rank) {
-        return Utilities::create_description_from_triangulation(
-            whole, communicator, Settings::default_setting, rank);
-      };
       if (MPI::this_mpi_process(communicator) == 0)
         {
           for (unsigned int rank = 1; rank < MPI::n_mpi_processes(communicator); ++rank)
             {
-              const std::vector<char> buffer = dealii::Utilities::pack(describe(rank), false);
+              const Part<dim>         part = part_of(whole, raw, rank, communicator);
+              const std::vector<char> buffer
+                  = dealii::Utilities::pack(std::make_pair(part.description, part.nodes), false);
               AssertThrow(buffer.size() <= std::numeric_limits<int>::max(),
                           dealii::ExcMessage("A rank's part of the mesh exceeds 2 GB."));
               check_mpi(MPI_Send(buffer.data(),
@@ -69,7 +96,7 @@ namespace isochor
                                  description_tag,
                                  communicator));
             }
-          return describe(0);
+          return part_of(whole, raw, 0, communicator);
         }
 
       MPI_Status status;
@@ -79,9 +106,34 @@ namespace isochor
       std::vector<char> buffer(size);
       check_mpi(MPI_Recv(
           buffer.data(), size, MPI_CHAR, 0, description_tag, communicator, MPI_STATUS_IGNORE));
-      auto description = dealii::Utilities::unpack<Description<dim>>(buffer, false);
+      auto [description, nodes]
+          = dealii::Utilities::unpack<std::pair<Description<dim>, std::vector<dealii::Point<dim>>>>(
+              buffer, false);
       description.comm = communicator; // not part of what is packed
-      return description;
+      return {std::move(description), std::move(nodes)};
+    }
+
+    // The nodes of @p part in the order of the active cells that deal.II made of it.
+    template <int dim>
+    std::vector<dealii::Point<dim>> nodes_by_active_cell(const Part<dim> &part,
+                                                         const Mesh<dim> &mesh)
+    {
+      const unsigned int n   = n_geometry_nodes<dim>(mesh.kind, mesh.geometry.order);
+      const auto        &ids = part.description.coarse_cell_index_to_coarse_cell_id;
+      std::unordered_map<dealii::types::coarse_cell_id, std::size_t> place;
+      for (std::size_t i = 0; i < ids.size(); ++i)
+        place[ids[i]] = i;
+
+      std::vector<dealii::Point<dim>> nodes(n * mesh.triangulation.n_active_cells());
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        {
+          const auto first = part.nodes.begin() + n * place.at(cell->id().get_coarse_cell_id());
+          for (const unsigned int v : cell->vertex_indices())
+            if (cell->vertex(v) != first[v])
+              throw std::logic_error("the vertices of a cell are not where its geometry says");
+          std::copy_n(first, n, nodes.begin() + n * cell->active_cell_index());
+        }
+      return nodes;
     }
   } // namespace
 
@@ -103,23 +155,32 @@ namespace isochor
   {
     auto                       mesh = std::make_unique<Mesh<dim>>(communicator);
     dealii::Triangulation<dim> whole;
+    RawMesh<dim>               raw; // on rank 0
     on_root_collectively(communicator, [&] {
-      RawMesh<dim> raw = make();
+      raw = make();
       raise_ids(raw);
       whole.create_triangulation(raw.vertices, raw.cells, raw.boundary);
+      raw.vertices.clear();
+      raw.vertices.shrink_to_fit();
+      raw.cells.clear();
+      raw.cells.shrink_to_fit();
       if (MPI::n_mpi_processes(communicator) > 1)
         part(whole);
-      mesh->names   = std::move(raw.names);
-      mesh->quality = raw.quality;
     });
-
-    mesh->triangulation.create_triangulation(scatter(whole, communicator));
-    lower_ids(mesh->triangulation);
-    mesh->names      = MPI::broadcast(communicator, mesh->names);
-    MeshQuality &q   = mesh->quality;
-    const auto   all = MPI::broadcast(communicator,
+    mesh->names = MPI::broadcast(communicator, raw.names);
+    mesh->kind
+        = static_cast<CellKind>(MPI::broadcast(communicator, static_cast<unsigned int>(raw.kind)));
+    mesh->geometry.order = MPI::broadcast(communicator, raw.geometry.order);
+    MeshQuality &q       = raw.quality;
+    const auto   all     = MPI::broadcast(communicator,
                                     std::vector<double>{q.min_angle, q.max_aspect, q.total_volume});
-    q                = {all[0], all[1], all[2]};
+    mesh->quality        = {all[0], all[1], all[2]};
+
+    const Part<dim> part_here = scatter(whole, raw, communicator);
+    mesh->triangulation.create_triangulation(part_here.description);
+    lower_ids(mesh->triangulation);
+    if (mesh->geometry.order > 1)
+      mesh->geometry.points = nodes_by_active_cell(part_here, *mesh);
     return mesh;
   }
 

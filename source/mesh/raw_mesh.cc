@@ -1,3 +1,5 @@
+#include "cell_order.h"
+
 #include <isochor/mesh/generator.h>
 #include <isochor/mesh/gmsh_reader.h>
 #include <isochor/mesh/mesh_check.h>
@@ -10,7 +12,11 @@ namespace isochor
   {
     RawMesh<dim> mesh
         = is_generator(request.source) ? generate<dim>(request) : read_with_gmsh<dim>(request);
-    check_and_complete(mesh, "Mesh '" + request.source + "'");
+    const std::string origin = "Mesh '" + request.source + "'";
+    check_and_complete(mesh, origin);
+    // Only now: deal.II expects sound cells.
+    if (!is_generator(request.source)) // whose edges are directed alike
+      direct_edges_alike(mesh);
     mesh.quality = measure_quality(mesh);
     return mesh;
   }

@@ -1,9 +1,9 @@
 #include "parts.h"
 
 #include <isochor/core/patterns.h>
+#include <isochor/mesh/generator.h>
 
 #include <algorithm>
-#include <regex>
 
 namespace isochor
 {
@@ -26,27 +26,48 @@ namespace isochor
                         Patterns::Anything(),
                         "Where the mesh comes from; must be set. A gmsh geometry (.geo, meshed "
                         "with Mesh size) or mesh (.msh) file, relative to the folder of this "
-                        "parameter file, or a generator with lengths in m: box(lx, ly, lz), "
-                        "rectangle(lx, ly), quadrilateral(x0,y0, x1,y1, x2,y2, x3,y3). "
-                        "Generators name the boundaries left, right (x), bottom, top (y), back, "
-                        "front (z). Examples: ../meshes/cantilever.geo; box(1, 0.1, 0.1)");
+                        "parameter file, or a generator with lengths in m. From one corner at the "
+                        "origin: box(lx, ly, lz), rectangle(lx, ly), with the boundaries left, "
+                        "right (x), bottom, top (y), back, front (z). quadrilateral(x0,y0, x1,y1, "
+                        "x2,y2, x3,y3): corners counterclockwise, the bottom side first. Around "
+                        "the x axis from x = 0: cylinder(radius, length) with left, right, side, "
+                        "tube(inner, outer, length) with left, right, inner, outer. Around the "
+                        "origin: sphere_octant(inner, outer), a thick shell where x, y, z >= 0, "
+                        "with left (x = 0), bottom (y = 0), back (z = 0), inner, outer; "
+                        "annulus_quarter(inner, outer), the same in 2D. All consist of what cells "
+                        "the element needs. A .geo file gives hexahedra or quadrilaterals if it "
+                        "says so itself where its constant hexahedra is 1: DefineConstant[ "
+                        "hexahedra = 0 ] makes it one that the element sets. Examples: "
+                        "../meshes/cantilever.geo; box(1, 0.1, 0.1)");
       prm.declare_entry("Mesh size",
                         to_text(defaults.size),
                         NumberPattern::at_least(0),
-                        "Edge length wanted in m, at least 0. 0: as the .geo file has it; not used "
-                        "by .msh files. Example: 0.05");
+                        "Edge length wanted in m, at least 0; where edges of curved bodies differ, "
+                        "their mean. 0: as the .geo file has it; not used by .msh files. Example: "
+                        "0.05");
+      prm.declare_entry("Geometry order",
+                        to_text(defaults.geometry_order),
+                        Patterns::Selection("1|2"),
+                        "Shape of the cells: 1, straight edges; 2, quadratic edges that follow "
+                        "curved surfaces, as quadratic and cubic elements need on curved bodies. A "
+                        ".geo file is meshed with this order, a .msh file must have it. No unit.");
       prm.declare_entry("Cells",
                         "",
                         Patterns::Anything(),
                         "Generators only: number of blocks in each direction, whole numbers of at "
-                        "least 1, no unit. Empty: length / Mesh size, rounded. Example: 30, 3, 3");
-      prm.declare_entry("Split",
-                        split_names.name(defaults.split),
-                        Patterns::Selection(split_names.selection()),
-                        "Generators only: how a block is cut into simplices. 6-tet: six "
-                        "tetrahedra around a diagonal; 5-tet: five, mirrored from block to block "
-                        "(hardly locks); right: 2D, by the diagonal from lower left to upper "
-                        "right. In 2D, always right.");
+                        "least 1, no unit. box, rectangle, quadrilateral: along x, y, z. cylinder: "
+                        "around a quarter, from the square core to the side, along x. tube: "
+                        "through the wall, around a quarter, along x. annulus_quarter: through the "
+                        "wall, around. sphere_octant: through the wall, along half an edge of the "
+                        "octant. Empty: length / Mesh size, rounded. Example: 30, 3, 3");
+      prm.declare_entry(
+          "Split",
+          split_names.name(defaults.split),
+          Patterns::Selection(split_names.selection()),
+          "Generators of triangles and tetrahedra only: how a block is cut. 6-tet: six "
+          "tetrahedra around a diagonal; 5-tet: five, mirrored from block to block "
+          "(hardly locks); right: 2D, by the diagonal from lower left to upper "
+          "right. In 2D, always right.");
     }
 
     MeshRequest
@@ -57,21 +78,27 @@ namespace isochor
       if (source.empty())
         throw UserError("Scene/Mesh: not set; allowed: a .geo or .msh file, or a generator such as "
                         "box(1, 0.1, 0.1)");
-      if (std::regex_search(source, std::regex("^(box|rectangle|quadrilateral)\\s*\\(")))
+      if (is_generator(source))
         request.source = source;
       else
         request.source = std::filesystem::absolute(folder / source).lexically_normal().string();
 
-      request.size = parse_number(prm.get("Mesh size"), "Scene/Mesh size");
+      request.size           = parse_number(prm.get("Mesh size"), "Scene/Mesh size");
+      request.geometry_order = prm.get("Geometry order") == "2" ? 2 : 1;
 
       const auto cells = split_list(prm.get("Cells"), ',');
       for (const std::string &number : cells)
         request.cells.push_back(parse_whole_number(number, 1, "Scene/Cells"));
-      if (!cells.empty() && cells.size() != static_cast<std::size_t>(dim))
-        throw UserError("Scene/Cells: '" + prm.get("Cells") + "' has "
-                        + std::to_string(cells.size()) + " numbers; in " + std::to_string(dim)
-                        + "D allowed: " + std::to_string(dim)
-                        + " whole numbers separated by commas, or nothing");
+      // Files take none, and never did mind them.
+      const std::size_t n_counts
+          = is_generator(source) ? generator_form(source).counts.size() : dim;
+      if (!cells.empty() && cells.size() != n_counts)
+        throw UserError(
+            "Scene/Cells: '" + prm.get("Cells") + "' has " + std::to_string(cells.size())
+            + " numbers; for "
+            + (is_generator(source) ? generator_form(source).name : std::to_string(dim) + "D")
+            + " allowed: " + std::to_string(n_counts)
+            + " whole numbers separated by commas, or nothing");
 
       request.split = split_names.value(prm.get("Split"), "Scene/Split");
       if (dim == 3 && request.split == Split::right_diagonal)

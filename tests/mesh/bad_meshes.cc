@@ -13,11 +13,15 @@ template <int dim>
 void refuse(const std::string &title,
             const std::string &name,
             const std::string &text,
-            const double       size = 0)
+            const double       size  = 0,
+            const CellKind     kind  = CellKind::simplex,
+            const unsigned int order = 1)
 {
   if (!text.empty())
     std::ofstream(folder.file(name)) << text;
-  print_error(title, folder, [&] { make_raw_mesh<dim>({folder.file(name), size, {}}); });
+  print_error(title, folder, [&] {
+    make_raw_mesh<dim>({folder.file(name), size, {}, Split::six_tets, kind, order});
+  });
 }
 
 // A .msh 2.2 file. Elements are "type tags... nodes" without their number.
@@ -144,4 +148,85 @@ int main()
   refuse<3>("coordinate that is no number",
             "nan.msh",
             msh(names, {"0 0 0", "nan 0 0", "0 1 0", "0 0 1"}, {face, tet}));
+
+  // Another kind of cells than the element is made for, or several kinds.
+  const auto        hex       = CellKind::hypercube;
+  const std::string recombine = "Transfinite Curve{:} = 3; Transfinite Surface{:}; "
+                                "Transfinite Volume{:}; Recombine Surface{:};\n";
+  refuse<3>("tetrahedra for a hexahedral element", "tets.geo", box + name, 0.5, hex);
+  refuse<3>("hexahedra on request (good)",
+            "both.geo",
+            "DefineConstant[ hexahedra = 0 ];\n" + box + name + "If (hexahedra)\n" + recombine
+                + "EndIf\n",
+            0,
+            hex);
+  refuse<3>("the same as tetrahedra (good)", "both.geo", "");
+  refuse<3>("constant without effect",
+            "idle.geo",
+            "DefineConstant[ hexahedra = 0 ];\n" + box + name,
+            0.5,
+            hex);
+  refuse<3>("constant without effect",
+            "stuck.geo",
+            "DefineConstant[ hexahedra = 0 ];\n" + box + name + recombine);
+  refuse<2>("triangles for a quadrilateral element", "plane.geo", square, 0.5, hex);
+  refuse<3>("a tetrahedron for a hexahedral element", "one.msh", "", 0, hex);
+  const std::vector<std::string> cube
+      = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1", "0.5 0.5 2"};
+  const std::string left = "3 2 1 1 1 4 8 5", brick = "5 2 0 1 1 2 3 4 5 6 7 8";
+  refuse<3>("one hexahedron (good)", "cube.msh", msh(names, cube, {left, brick}), 0, hex);
+  refuse<3>("a hexahedron for a tetrahedral element", "cube.msh", "");
+  refuse<3>("mixed", "mixed.msh", msh(names, cube, {left, brick, "7 2 0 1 5 6 7 8 9"}), 0, hex);
+  refuse<3>("mixed, for tetrahedra", "mixed.msh", "");
+
+  // Bad hexahedra and quadrilaterals.
+  refuse<3>(
+      "inverted", "inside_out.msh", msh(names, cube, {left, "5 2 0 1 5 6 7 8 1 2 3 4"}), 0, hex);
+  auto dented = cube;
+  dented[6]   = "0.3 0.3 0.3";
+  refuse<3>("inverted at one vertex", "dented.msh", msh(names, dented, {left, brick}), 0, hex);
+  auto flat = cube;
+  flat[6]   = "1 1 0";
+  refuse<3>("flat at a vertex", "flat_vertex.msh", msh(names, flat, {left, brick}), 0, hex);
+  refuse<3>("cell twice", "twice_hex.msh", msh(names, cube, {left, brick, brick}), 0, hex);
+  refuse<2>("quadrilateral with a reentrant corner",
+            "arrow.msh",
+            msh({"1 1 \"left\""},
+                {"0 0 0", "1 0 0", "0.2 0.2 0", "0 1 0"},
+                {"1 2 1 1 4 1", "3 2 0 1 1 2 3 4"}),
+            0,
+            hex);
+
+  // Geometry order.
+  refuse<3>("second order on request (good)", "second.geo", box + name, 0.5, CellKind::simplex, 2);
+  refuse<3>("straight .msh, curved cells wanted", "one.msh", "", 0, CellKind::simplex, 2);
+  refuse<3>("third order", "cubic.geo", box + name + "Mesh.ElementOrder = 3;\n");
+  const std::vector<std::string> quad8
+      = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0.5 0 0", "1 0.5 0", "0.5 1 0", "0 0.5 0"};
+  refuse<2>("quadrilateral of 8 nodes",
+            "quad8.msh",
+            msh({"1 1 \"left\""}, quad8, {"8 2 1 1 4 1 8", "16 2 0 1 1 2 3 4 5 6 7 8"}),
+            0,
+            hex,
+            2);
+  // One edge's node pushed past the opposite vertex: the edge from (1, 0) to (0, 1) as a parabola
+  // through (0.1, 0.1). At its ends the determinant is 4 * 0.1 - 1 < 0 (and 2 * area = 1 if straight).
+  const auto curved = [](const std::string &node) {
+    return msh({"1 1 \"outer\""},
+               {"0 0 0", "1 0 0", "0 1 0", "0.5 0 0", node, "0 0.5 0"},
+               {"8 2 1 1 2 3 5", "9 2 0 1 1 2 3 4 5 6"});
+  };
+  refuse<2>("curved (good)", "curved.msh", curved("0.6 0.6 0"), 0, CellKind::simplex, 2);
+  refuse<2>("inverted by a curved edge", "dent.msh", curved("0.1 0.1 0"), 0, CellKind::simplex, 2);
+  // Single tetrahedra through a thin wall.
+  refuse<3>("curved cells too large for a thin wall",
+            "thin.geo",
+            "SetFactory(\"OpenCASCADE\"); Cylinder(1) = {0, 0, 0, 0, 0, 1, 1};\n"
+            "Cylinder(2) = {0, 0, 0, 0, 0, 1, 0.95};\n"
+            "BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };\n"
+            "outer() = Surface In BoundingBox{-1.1, -1.1, -0.1, 1.1, 1.1, 1.1};\n"
+            "Physical Surface(\"skin\") = outer();\n",
+            1,
+            CellKind::simplex,
+            2);
 }

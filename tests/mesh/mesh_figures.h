@@ -14,31 +14,39 @@
 
 namespace isochor::testing
 {
-  template <int dim>
-  const std::vector<dealii::CellData<dim - 1>> &boundary_faces(const RawMesh<dim> &mesh)
-  {
-    if constexpr (dim == 2)
-      return mesh.boundary.boundary_lines;
-    else
-      return mesh.boundary.boundary_quads;
-  }
-
+  /// Of a flat face: a line, a triangle, or a quadrilateral in deal.II's order.
   template <int dim>
   double face_area(const std::vector<dealii::Point<dim>> &v)
   {
     if constexpr (dim == 2)
       return v[0].distance(v[1]);
+    else if (v.size() == 4) // half the product of the diagonals
+      return cross_product_3d(v[3] - v[0], v[2] - v[1]).norm() / 2;
     else
       return cross_product_3d(v[1] - v[0], v[2] - v[0]).norm() / 2;
   }
 
+  /// Of simplices: the volume; of hypercubes the smallest Jacobian determinant at a vertex.
   template <int dim>
-  double signed_volume(const RawMesh<dim> &mesh, const dealii::CellData<dim> &cell)
+  double orientation(const RawMesh<dim> &mesh, const dealii::CellData<dim> &cell)
   {
-    dealii::Tensor<2, dim> edges;
-    for (unsigned int d = 0; d < dim; ++d)
-      edges[d] = mesh.vertices[cell.vertices[d + 1]] - mesh.vertices[cell.vertices[0]];
-    return determinant(edges) / (dim == 2 ? 2 : 6);
+    double smallest = 1e300;
+    for (unsigned int v = 0; v < (mesh.kind == CellKind::simplex ? 1 : cell.vertices.size()); ++v)
+      {
+        dealii::Tensor<2, dim> edges;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int to = mesh.kind == CellKind::simplex ? d + 1 : v ^ 1u << d;
+            edges[d] = (mesh.vertices[cell.vertices[to]] - mesh.vertices[cell.vertices[v]])
+                       * (mesh.kind == CellKind::hypercube && (v >> d & 1) ? -1. : 1.);
+          }
+        smallest = std::min(smallest,
+                            determinant(edges)
+                                / (mesh.kind == CellKind::hypercube ? 1
+                                   : dim == 2                       ? 2
+                                                                    : 6));
+      }
+    return smallest;
   }
 
   template <int dim>
@@ -48,8 +56,8 @@ namespace isochor::testing
     for (const auto &face : boundary_faces(mesh))
       {
         std::vector<dealii::Point<dim>> v;
-        for (unsigned int i = 0; i < dim; ++i)
-          v.push_back(mesh.vertices[face.vertices[i]]);
+        for (const unsigned int vertex : face.vertices)
+          v.push_back(mesh.vertices[vertex]);
         area[face.boundary_id == unnamed_boundary ? "(unnamed)" : mesh.names[face.boundary_id]]
             += face_area(v);
       }
@@ -62,12 +70,23 @@ namespace isochor::testing
   {
     std::map<std::set<unsigned int>, unsigned int> cells_of_face;
     for (const auto &cell : mesh.cells)
-      for (unsigned int opposite = 0; opposite <= dim; ++opposite)
-        {
-          std::set<unsigned int> face(cell.vertices.begin(), cell.vertices.end());
-          face.erase(cell.vertices[opposite]);
+      {
+        // A simplex's face lacks one vertex; a hypercube's has those with one bit alike.
+        const auto add = [&](const auto &is_in) {
+          std::set<unsigned int> face;
+          for (unsigned int v = 0; v < cell.vertices.size(); ++v)
+            if (is_in(v))
+              face.insert(cell.vertices[v]);
           ++cells_of_face[face];
-        }
+        };
+        if (mesh.kind == CellKind::simplex)
+          for (unsigned int opposite = 0; opposite <= dim; ++opposite)
+            add([&](const unsigned int v) { return v != opposite; });
+        else
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int side = 0; side < 2; ++side)
+              add([&](const unsigned int v) { return (v >> d & 1) == side; });
+      }
     std::array<unsigned int, 3> counts{};
     for (const auto &[face, n] : cells_of_face)
       ++counts[std::min(n, 3u) - 1];

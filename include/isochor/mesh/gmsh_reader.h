@@ -8,7 +8,8 @@ namespace isochor
 {
   /// Cells and named faces of a .geo or .msh file, not checked yet. Where the file defines
   /// physical volumes (2D: surfaces), only their cells; vertices of no cell are dropped. Physical
-  /// groups of faces with a name become boundaries.
+  /// groups of faces with a name become boundaries. Cells of another kind or order than requested
+  /// are refused, and meshes of several kinds.
   ///
   /// A requested size is given to a .geo file as its parameter `size`, if the file has one
   /// (DefineConstant[ size = ... ]), else gmsh's sizes are held to that length. Edges of the surface

@@ -27,8 +27,9 @@ namespace isochor
 
     dealii::parallel::fullydistributed::Triangulation<dim> triangulation;
     CellKind                                               kind = CellKind::simplex;
-    GeometryNodes<dim>       geometry; ///< by active_cell_index() of the triangulation
-    std::vector<std::string> names;    ///< name of boundary id 0, 1, ...; the same on every rank
+    /// By active_cell_index() of the triangulation, ghost cells included.
+    GeometryNodes<dim>       geometry;
+    std::vector<std::string> names; ///< name of boundary id 0, 1, ...; the same on every rank
     MeshQuality              quality;
 
     /// Throws UserError("<what>: no boundary is named 'name'; this mesh has ...").

@@ -22,19 +22,29 @@ namespace isochor
 
   struct MeshRequest
   {
-    /// Absolute path of a .geo or .msh file, or a generator: "box(lx, ly, lz)",
-    /// "rectangle(lx, ly)" (one corner at the origin, metres), or
-    /// "quadrilateral(x0,y0, x1,y1, x2,y2, x3,y3)" (corners counterclockwise, bottom side first,
-    /// sides named bottom, right, top, left).
+    /// Absolute path of a .geo or .msh file, or a generator (generator_forms(), metres):
+    /// - "box(lx, ly, lz)", "rectangle(lx, ly)": one corner at the origin;
+    /// - "quadrilateral(x0,y0, x1,y1, x2,y2, x3,y3)": corners counterclockwise, bottom side first,
+    ///   sides named bottom, right, top, left;
+    /// - "cylinder(radius, length)", "tube(inner, outer, length)": around the x axis from x = 0,
+    ///   with the ends left and right, and side, or inner and outer;
+    /// - "sphere_octant(inner, outer)": a thick shell around the origin where x, y, z >= 0; left
+    ///   (x = 0), bottom (y = 0), back (z = 0), inner, outer;
+    /// - "annulus_quarter(inner, outer)": the same in 2D, where x, y >= 0.
     std::string source;
-    /// Edge length wanted, metres. 0: as the .geo file has it; not used by .msh files.
+    /// Edge length wanted, metres. 0: as the .geo file has it; not used by .msh files. In curved
+    /// generators of the mean of the edges.
     double size = 0;
-    /// Generators: blocks per direction; empty: round(length / size), at least 1.
+    /// Generators: blocks in each direction, as GeneratorForm::counts says; empty:
+    /// round(length / size), at least 1.
     std::vector<unsigned int> cells;
-    Split                     split = Split::six_tets;
-    /// What cells the element is made for.
+    Split                     split = Split::six_tets; ///< not used for hypercubes
+    /// What cells the element is made for. A .geo file may offer both: its constant `hexahedra`, if
+    /// it has one (DefineConstant[ hexahedra = 0 ]), is set to 1 for quadrilaterals and hexahedra
+    /// and to 0 for simplices, so that it can recombine.
     CellKind kind = CellKind::simplex;
-    /// 1: straight cells; 2: quadratic cells, which follow a curved surface.
+    /// 1: straight cells; 2: quadratic cells, which follow a curved surface. A .geo file is meshed
+    /// with that order; a .msh file must hold cells of it.
     unsigned int geometry_order = 1;
   };
 } // namespace isochor

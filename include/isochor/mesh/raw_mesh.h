@@ -1,19 +1,21 @@
 #pragma once
 
-// A whole simplex mesh on one rank, before it is distributed.
+// A whole mesh on one rank, before it is distributed.
 
 #include <isochor/mesh/mesh_request.h>
 
 #include <deal.II/grid/tria_description.h>
 
+#include <type_traits>
+
 namespace isochor
 {
-  /// Smallest dihedral angle (2D: corner angle) in degrees, largest ratio of longest edge to
-  /// smallest height, over all cells.
+  /// Over all cells, see CellShape. Angle and aspect are of the cells with straight edges through
+  /// their vertices; the volume is that of the cells as they are, curved ones too.
   struct MeshQuality
   {
-    double min_angle    = 0;
-    double max_aspect   = 0;
+    double min_angle    = 0; ///< degrees
+    double max_aspect   = 0; ///< longest edge to smallest height
     double total_volume = 0; ///< m^3 (2D: m^2)
   };
 
@@ -45,8 +47,19 @@ namespace isochor
   /// Boundary id of faces that no name was given to.
   inline constexpr dealii::types::boundary_id unnamed_boundary = 9999;
 
-  /// Read or generate, check (only simplices, first order, none inverted or degenerate, one
-  /// connected body, no unused vertices) and measure. Serial. Throws UserError.
+  /// The list in mesh.boundary that holds the faces.
+  template <typename Raw> // RawMesh<dim>, const or not
+  auto &boundary_faces(Raw &mesh)
+  {
+    if constexpr (std::is_same_v<std::remove_const_t<Raw>, RawMesh<2>>)
+      return mesh.boundary.boundary_lines;
+    else
+      return mesh.boundary.boundary_quads;
+  }
+
+  /// Read or generate, check (cells of the kind and order asked for, none inverted or degenerate,
+  /// one connected body, no unused vertices) and measure. Quadrilaterals and hexahedra come with
+  /// their edges directed alike where they meet, as deal.II wants them. Serial. Throws UserError.
   template <int dim>
   RawMesh<dim> make_raw_mesh(const MeshRequest &request);
 } // namespace isochor
