@@ -3,7 +3,7 @@
 
 namespace isochor
 {
-  // P = mu (F - cof F).
+  // P = mu (F - cof F), A_iJkL = mu (d_ik d_JL - eps_ikm eps_JLM F_mM).
   void StableNeoHookean::evaluate(const Deformation &deformation,
                                   const bool         with_tangent,
                                   Response          &response) const
@@ -15,8 +15,20 @@ namespace isochor
     if (!with_tangent)
       return;
 
-    for (int k = 0; k < 81; ++k)
-      response.A[k] = batch(k % 10 == 0 ? mu : 0.);
-    add_second_derivative_of_J(batch(-mu), F, response.A);
+    Batch plus[9], minus[9];
+    for (int k = 0; k < 9; ++k)
+      {
+        plus[k]  = mu * F[k];
+        minus[k] = -plus[k];
+      }
+    fill_tangent(
+        [&](const int i, const int J, const int k, const int L) {
+          if (i == k || J == L)
+            return batch(i == k && J == L ? mu : 0.);
+          const int  rest       = 3 * (3 - i - k) + 3 - J - L;
+          const bool same_sense = (i + 1) % 3 == k ? (J + 1) % 3 == L : (L + 1) % 3 == J;
+          return same_sense ? minus[rest] : plus[rest];
+        },
+        response.A);
   }
 } // namespace isochor

@@ -1,12 +1,13 @@
-// How far energies serve. Polar decomposition: F = R V diag(s) V^T of known R, at ordinary and at
-// extreme stretches, and at J < 0, where R stays a rotation, to the error that polar.h states; NaN
-// where no rotation is nearest. The range of
-// a deformation against the stretches and the angle put in. St. Venant-Kirchhoff's limits, 1 /
+// How far energies, and what they are made of, serve. Polar decomposition: F = R V diag(s) V^T of
+// known R, at ordinary and at extreme stretches, and at J < 0, where R stays a rotation, to the error
+// that polar.h states; NaN where no rotation is nearest. Cube root: cubes of what is known. The range
+// of a deformation against the stretches and the angle put in. St. Venant-Kirchhoff's limits, 1 /
 // sqrt(3) in one direction and 1 / sqrt(2) in two, against its tangent, which is singular there:
 // A_1111 = mu (3 l^2 - 1), A_1212 = mu (l_1^2 + l_2^2 - 1) at F = diag(l_1, l_2, l_3).
 
 #include <isochor/material/deformation_range.h>
 #include <isochor/material/energies.h>
+#include <isochor/material/lanes.h>
 #include <isochor/material/polar.h>
 
 #include "deformations.h"
@@ -74,6 +75,16 @@ int main(int argc, char **argv)
   polar(-.9, 1., 1.);
   const auto none = polar_decomposition(turned(-1., 1., 1., 0.3));
   out() << "polar decomposition, stretches -1 1 1: NaN " << yes(std::isnan(none.R[4][2])) << "\n";
+
+  double error = 0;
+  for (int exponent = -90; exponent <= 90; ++exponent)
+    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      {
+        const double root = (1. + 0.11 * lane) * std::pow(10., exponent);
+        raise(error, std::abs(isochor::cbrt(batch(root * root * root))[lane] / root - 1.));
+      }
+  out() << "cube roots: " << below(error, 1e-15) << ", NaN of NaN "
+        << yes(std::isnan(isochor::cbrt(batch(std::nan("")))[0])) << "\n";
 
   DeformationRange range;
   out() << "range at rest: stretch " << range.smallest_stretch << ", rotation "

@@ -288,7 +288,7 @@ namespace isochor
     struct ProductBatch
     {
       Batch B[dim][dim][dim]; ///< [J][i][k] = A_iJkL dN_b/dX_L
-      Batch normal[dim];      ///< Phi' dJ/dF dN_b/dX
+      Batch normal[dim];      ///< dPhi/dF dN_b/dX
     };
 
     /// d xi / d X and det dX / d xi at eight quadrature points.

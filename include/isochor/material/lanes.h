@@ -4,6 +4,7 @@
 
 #include <isochor/core/batch.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -23,12 +24,25 @@ namespace isochor
     return result;
   }
 
+  /// For finite normal x > 0, to one unit in the last place; NaN stays NaN. Eight at once, unlike std::cbrt.
   inline Batch cbrt(const Batch &x)
   {
-    Batch result;
-    for (unsigned int lane = 0; lane < n_lanes; ++lane)
-      result[lane] = std::cbrt(x[lane]);
-    return result;
+    // A third of the bits is about the cube root (a third of the exponent), within 4 %; 1/3 = 1/4 +
+    // 1/16 + ... Each of Halley's steps takes the error to 2/3 of its cube.
+    using Bits = long long __attribute__((vector_size(n_lanes * sizeof(long long))));
+    Bits bits  = std::bit_cast<Bits>(x);
+    bits       = (bits >> 2) + (bits >> 4);
+    bits += bits >> 4;
+    bits += bits >> 8;
+    bits += bits >> 16;
+    bits += 0x2A9F7893782DA1CELL;
+    Batch root = std::bit_cast<Batch>(bits);
+    for (int step = 0; step < 3; ++step)
+      {
+        const Batch cube = root * root * root;
+        root += root * ((x - cube) / (2. * cube + x));
+      }
+    return root;
   }
 
   inline Batch sqrt(const Batch &x)
