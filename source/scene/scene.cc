@@ -45,12 +45,14 @@ namespace isochor
                         "Edge length wanted in m, at least 0; where edges of curved bodies differ, "
                         "their mean. 0: as the .geo file has it; not used by .msh files. Example: "
                         "0.05");
-      prm.declare_entry("Geometry order",
-                        to_text(defaults.geometry_order),
-                        Patterns::Selection("1|2"),
-                        "Shape of the cells: 1, straight edges; 2, quadratic edges that follow "
-                        "curved surfaces, as quadratic and cubic elements need on curved bodies. A "
-                        ".geo file is meshed with this order, a .msh file must have it. No unit.");
+      prm.declare_entry(
+          "Geometry order",
+          to_text(defaults.geometry_order),
+          Patterns::Selection("1|2"),
+          "Shape of the cells: 1, straight edges; 2, quadratic edges that follow "
+          "curved surfaces, as quadratic and cubic elements need on curved bodies (of "
+          "linear elements the shape functions would not be linear any more). A "
+          ".geo file is meshed with this order, a .msh file must have it. No unit.");
       prm.declare_entry("Cells",
                         "",
                         Patterns::Anything(),
@@ -89,16 +91,20 @@ namespace isochor
       const auto cells = split_list(prm.get("Cells"), ',');
       for (const std::string &number : cells)
         request.cells.push_back(parse_whole_number(number, 1, "Scene/Cells"));
-      // Files take none, and never did mind them.
-      const std::size_t n_counts
-          = is_generator(source) ? generator_form(source).counts.size() : dim;
+      // A file takes any that a generator might.
+      std::size_t n_counts = dim;
+      std::string where    = "in " + std::to_string(dim) + "D";
+      if (is_generator(source))
+        {
+          const GeneratorForm &form = generator_form(source);
+          n_counts                  = form.counts.size();
+          where                     = "for " + form.call;
+        }
       if (!cells.empty() && cells.size() != n_counts)
-        throw UserError(
-            "Scene/Cells: '" + prm.get("Cells") + "' has " + std::to_string(cells.size())
-            + " numbers; for "
-            + (is_generator(source) ? generator_form(source).name : std::to_string(dim) + "D")
-            + " allowed: " + std::to_string(n_counts)
-            + " whole numbers separated by commas, or nothing");
+        throw UserError("Scene/Cells: '" + prm.get("Cells") + "' has "
+                        + std::to_string(cells.size()) + " numbers; " + where
+                        + " allowed: " + std::to_string(n_counts)
+                        + " whole numbers separated by commas, or nothing");
 
       request.split = split_names.value(prm.get("Split"), "Scene/Split");
       if (dim == 3 && request.split == Split::right_diagonal)

@@ -199,6 +199,7 @@ int main()
 
   // Geometry order.
   refuse<3>("second order on request (good)", "second.geo", box + name, 0.5, CellKind::simplex, 2);
+  refuse<3>("and by the file too (good)", "quadratic.geo", "", 0.5, CellKind::simplex, 2);
   refuse<3>("straight .msh, curved cells wanted", "one.msh", "", 0, CellKind::simplex, 2);
   refuse<3>("third order", "cubic.geo", box + name + "Mesh.ElementOrder = 3;\n");
   const std::vector<std::string> quad8

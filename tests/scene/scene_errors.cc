@@ -44,6 +44,8 @@ int main()
   refuse<3>("set Mesh size = -1");
   refuse<3>("set Cells = 3, 3");
   refuse<2>("set Cells = 3, 0");
+  refuse<3>("set Cells = 3, 3, 3", "set Mesh = sphere_octant(1, 2)\n");
+  refuse<3>("set Geometry order = 3");
   refuse<3>("set Split = 7-tet");
   refuse<3>("set Split = right");
   refuse<2>("set Split = 5-tet");
