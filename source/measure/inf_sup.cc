@@ -106,7 +106,8 @@ namespace isochor
           shifted.values()[k] = saddle.values()[k] + sigma * mass.values()[k];
         const Factorisation factorisation = solver.factor(shifted);
         if (!factorisation.succeeded)
-          throw std::runtime_error("inf-sup test: " + factorisation.failure);
+          throw std::runtime_error("inf-sup test, beta^2 = " + std::to_string(sigma) + ": "
+                                   + factorisation.failure);
         return discretisation.n_pressures - *factorisation.negative_pivots;
       }
 
@@ -184,6 +185,19 @@ namespace isochor
             dst.local_element(i) = 0.;
         }
       };
+
+      /// Pressures are measured in units that make M as large as A, which are of different powers of
+      /// the cell size: pivots of sigma M would be taken for rounding otherwise. The eigenvalues do
+      /// not change.
+      double pressure_unit() const
+      {
+        double size = 0;
+        for (std::size_t cell = 0; cell < discretisation.cells.n_owned; ++cell)
+          size += std::pow(discretisation.cells.determinant[cell], 1. / dim);
+        size = dealii::Utilities::MPI::sum(size, discretisation.communicator())
+               / double(discretisation.n_cells);
+        return 5. / size;
+      }
 
       void assemble(const VolumetricStrain strain, const double stabilisation, const Vector &state)
       {
@@ -294,9 +308,9 @@ namespace isochor
       return result; // no displacement feels any pressure
 
     // Bracket the smallest beta^2 that is not zero, then let ARPACK find it from below. It is no
-    // larger than d.
+    // larger than d. No step by tens: round numbers may be eigenvalues.
     double below = zero_beta_squared;
-    for (double above = 10. * below; system.factor(above) == zeros; above *= 10.)
+    for (double above = 9.7 * below; system.factor(above) == zeros; above *= 9.7)
       {
         if (above > 1e3)
           throw std::runtime_error("inf-sup test: no eigenvalue was found");
