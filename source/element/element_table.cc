@@ -12,20 +12,21 @@ namespace isochor
     // P1 and its pairs have constant J, so one point is exact: the integral of N_p over a cell times
     // J; the pressure mass matrix is integrated in closed form. MINI: the product of two gradients
     // of the bubble is of degree 6.
-    static const std::vector<Element> table = {{"P1", simplex, linear, {}, 1},
-                                               {"P2", simplex, quadratic, {}, 4},
-                                               {"P3", simplex, cubic, {}, 6},
-                                               {"P1-P1", simplex, linear, linear, 1},
-                                               {"P1-P1s", simplex, linear, linear, 1, true},
-                                               {"P1-P0", simplex, linear, constant, 1},
-                                               {"MINI", simplex, bubble, linear, 6},
-                                               {"P2-P0", simplex, quadratic, constant, 4},
-                                               {"P2-P1", simplex, quadratic, linear, 4},
-                                               {"P3-P2", simplex, cubic, quadratic, 6},
-                                               {"Q1", hypercube, linear, {}, 3},
-                                               {"Q2", hypercube, quadratic, {}, 5},
-                                               {"Q1-P0", hypercube, linear, constant, 3},
-                                               {"Q2-P1", hypercube, quadratic, broken_linear, 5}};
+    static const std::vector<Element> table
+        = {{"P1", simplex, linear, {}, 1},
+           {"P2", simplex, quadratic, {}, 4},
+           {"P3", simplex, cubic, {}, 6},
+           {"P1-P1", simplex, linear, linear, 1},
+           {"P1-P1s", simplex, linear, linear, 1, true, true},
+           {"P1-P0", simplex, linear, constant, 1},
+           {"MINI", simplex, bubble, linear, 6, true},
+           {"P2-P0", simplex, quadratic, constant, 4},
+           {"P2-P1", simplex, quadratic, linear, 4, true},
+           {"P3-P2", simplex, cubic, quadratic, 6, true},
+           {"Q1", hypercube, linear, {}, 3},
+           {"Q2", hypercube, quadratic, {}, 5},
+           {"Q1-P0", hypercube, linear, constant, 3},
+           {"Q2-P1", hypercube, quadratic, broken_linear, 5, true}};
     return table;
   }
 

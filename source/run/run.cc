@@ -73,7 +73,9 @@ namespace isochor
       const auto  scope   = stopwatch.measure(Phase::mesh);
       MeshRequest request = scene.mesh;
       request.kind        = method.element.kind;
-      mesh                = make_mesh<dim>(request, communicator);
+      // A linear displacement on a quadratic cell would not even hold a linear field.
+      request.geometry_order = std::min(request.geometry_order, method.element.displacement.degree);
+      mesh                   = make_mesh<dim>(request, communicator);
     }
     result.quality         = mesh->quality;
     const auto boundary_id = [&](const std::string &name, const std::string &what) {

@@ -12,10 +12,10 @@ namespace isochor
     // Above this ratio of kappa to mu (nu = 0.475), linear simplices lose more than a few percent.
     constexpr double stiff_volume = 20.;
 
-    /// Elements of a kind of cells that pass the inf-sup test.
     std::string stable_elements(const CellKind kind)
     {
-      return kind == CellKind::simplex ? "P2-P1, MINI or P1-P1s" : "Q2-P1";
+      return listed(element_names(
+          [&](const Element &element) { return element.is_stable && element.kind == kind; }));
     }
 
     template <int dim>
@@ -131,7 +131,14 @@ namespace isochor
 
     void say_pressure(Sentences &out, const RunResult &result, const Element &element)
     {
-      if (result.oscillation.value_or(0) > 0.5)
+      if (result.oscillation.value_or(0) <= 0.5)
+        return;
+      if (element.is_stable)
+        out.add("the pressure changes much from cell to cell (CB = ",
+                *result.oscillation,
+                "): the mesh is too coarse for the pressures of ",
+                element.name);
+      else
         out.add("the pressure oscillates (CB = ",
                 *result.oscillation,
                 "): trust the displacements of ",

@@ -21,8 +21,9 @@ namespace isochor::testing
         const auto node = shape.node(i);
         if (shape.value(i, node) == 0.)
           {
-            const auto half = 0.5 * dealii::Point<dim>::unit_vector(i - 1);
-            c.push_back(f(node + half) - f(node - half));
+            const auto half  = 0.5 * dealii::Point<dim>::unit_vector(i - 1);
+            const auto lower = dealii::Point<dim>(node - half);
+            c.push_back(f(node + half) - f(lower));
             continue;
           }
         double rest = f(node);

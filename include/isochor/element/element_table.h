@@ -21,6 +21,8 @@ namespace isochor
     /// two more). On affine simplices J is a polynomial of degree 3 (k - 1): 0 for linear, 3 for
     /// quadratic, 6 for cubic displacements. Hypercubes: Gauss with k + 1 points per coordinate.
     unsigned int quadrature_degree;
+    /// Does it pass the inf-sup test in three dimensions? (tests/measure/inf_sup)
+    bool is_stable = false;
     /// P1-P1s: the polynomial pressure projection of Bochev, Dohrmann and Gunzburger 2006.
     bool is_stabilised = false;
 
