@@ -24,20 +24,18 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 from matplotlib.transforms import Bbox, ScaledTranslation
 
-from results_table import (POISSON, UNITS, BadTable, Study, failed, groups, number, setting,
-                           short)
+from results_table import (POISSON, RESOLUTION, UNITS, BadTable, Study, failed, groups, number,
+                           setting, short)
 
 # Okabe and Ito: told apart by colour-blind readers. Black is kept for the reference.
 COLOURS = ["#D55E00", "#E69F00", "#009E73", "#0072B2", "#56B4E9", "#CC79A7", "#7F7F7F", "#8B5A2B"]
 # A colour of its own for each of these in every study; others take colours as they come.
-ELEMENTS = ["P1", "P2", "P3", "P1-P1", "P2-P1", "P3-P2"]
+ELEMENTS = ["P1", "P2", "P3", "P1-P1", "P2-P1", "P3-P2", "P1-P1s", "MINI", "P1-P0", "P2-P0",
+            "Q1", "Q2", "Q1-P0", "Q2-P1"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "h"]
 DASHES = ["-", (0, (4, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1))]
 
 STRIP = 0.07  # height of the strip of failed runs, as part of the axes
-
-# Parameters that change the discretisation, not the problem: runs along them share a panel.
-RESOLUTION = {"Scene/Mesh size", "Scene/Cells"}
 
 
 def style(study, method):
@@ -208,11 +206,14 @@ def chart_against_parameter(study, folder, title, probe, parameter, what):
 
     if not figures(study.runs):
         return []
+    # An error norm, or whatever else is positive and spans orders of magnitude.
+    values = [value for _, value in figures(study.runs)]
+    logarithmic = what == "value" and min(values) > 0 and max(values) > 30 * min(values)
     figure, panels = new_figure(title, split_in_panels(study, [parameter]))
     first = panels[0][0]
     axis = Axis(study, parameter)
     for axes, rows in panels:
-        if what == "error":
+        if what == "error" or logarithmic:
             axes.set_yscale("log")
         for method, pairs in groups(figures(rows), lambda pair: study.method(pair[0])).items():
             points = sorted((axis.position(row), value) for row, value in pairs)
@@ -224,6 +225,9 @@ def chart_against_parameter(study, folder, title, probe, parameter, what):
            if what == "error" else draw_reference(axes, study, rows, probe, axis))
     if what == "error":
         log_axis(first.yaxis, percent)
+    if logarithmic:
+        first.yaxis.set_major_locator(LogLocator(numticks=12))
+        first.yaxis.set_minor_formatter(NullFormatter())
     axis.apply(first)
     return save(figure, folder, f"{slug(probe.name)}_{what}_against_{slug(short(parameter))}")
 
@@ -248,7 +252,7 @@ def draw_reference(axes, study, rows, probe, axis):
     """The reference runs of the same scene as ROWS, which may be finer.
 
     A run that only checks the reference has no error of its own."""
-    same = [n for n in study.varied if n not in RESOLUTION | {axis.parameter}
+    same = [n for n in study.varied if n not in [*RESOLUTION, axis.parameter]
             and not n.startswith("Method/")]
     points = sorted((axis.position(row), number(row[probe.column])) for row in study.reference
                     if number(row[axis.parameter]) is not None

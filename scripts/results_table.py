@@ -8,6 +8,8 @@ from collections import namedtuple
 FIRST_COST, LAST_COST, AFTER_PROBES = "cells", "peak memory MB", "volume ratio"
 NEEDED = [FIRST_COST, "unknowns", "seconds total", LAST_COST, AFTER_PROBES, "status", "role"]
 POISSON = "Scene/Poisson ratio"
+# Parameters that change the discretisation, not the problem.
+RESOLUTION = ["Scene/Mesh size", "Scene/Cells"]
 UNITS = {"Mesh size": "m", "Young's modulus": "Pa", "Density": "kg/m³", "Poisson ratio": ""}
 
 Probe = namedtuple("Probe", "column name unit error uncertainty")
@@ -92,6 +94,43 @@ class Study:
             raise BadTable(f"'{wanted}' are the settings of {len(rows)} runs, not of one")
         return rows[0]
 
+    def probe(self, name):
+        """The probe NAME (without its unit)."""
+        found = [probe for probe in self.probes if probe.name == name]
+        if not found:
+            raise BadTable(f"no probe is named '{name}'; there are "
+                           f"{', '.join(probe.name for probe in self.probes) or 'none'}")
+        return found[0]
+
+    def resolution(self):
+        """The one varied parameter that refines the mesh."""
+        names = [name for name in self.varied if name in RESOLUTION]
+        if len(names) != 1:
+            raise BadTable("orders need a study that varies Mesh size or Cells, one of them")
+        return names[0]
+
+    def orders(self, probe):
+        """Convergence of PROBE: (settings, [(size as text, error, order)]) for each group of runs
+        that differ in size only, coarse to fine; the order is that since the size before, None
+        for the first or beside a failed run. The error is that against the study's reference, or,
+        without one, the probe itself, as of an error norm."""
+        parameter = self.resolution()
+        others = [name for name in self.varied if name != parameter]
+        found = []
+        for settings, rows in groups(self.runs, lambda row: tuple(row[n] for n in others)).items():
+            line, before = [], None
+            for row in sorted(rows, key=lambda row: -size_of(row[parameter])):
+                text = row[probe.error] if probe.error and row[probe.error] else row[probe.column]
+                error = None if failed(row) else number(text)
+                error = abs(error) if error else None
+                here = (size_of(row[parameter]), error) if error else None
+                order = (math.log(before[1] / error) / math.log(before[0] / here[0])
+                         if before and here else None)
+                line.append((row[parameter], error, order))
+                before = here
+            found.append((dict(zip(others, settings)), line))
+        return found
+
     def numeric_parameters(self):
         """Varied settings of the scene that are numbers."""
         return [name for name in self.varied if not name.startswith("Method/")
@@ -100,6 +139,11 @@ class Study:
 
 def failed(row):
     return not row["status"].startswith("converged")
+
+
+def size_of(text):
+    """A number in proportion to the cells' size: a Mesh size, or Cells such as "8, 8"."""
+    return float(text) if "," not in text else 1 / float(text.split(",")[0])
 
 
 def short(parameter):

@@ -57,6 +57,8 @@ namespace isochor
     if (scene.gravity.norm() > 0)
       loads.push_back(
           std::make_unique<BodyForce<dim>>(discretisation, material.density, scene.gravity));
+    if (!scene.body_force.empty())
+      loads.push_back(std::make_unique<DistributedForce<dim>>(discretisation, scene.body_force));
     for (const auto &traction : scene.tractions)
       loads.push_back(std::make_unique<TractionLoad<dim>>(
           discretisation, boundary_id(traction.boundary, "Scene/Traction"), traction.components));

@@ -2,10 +2,17 @@
 #include <isochor/form/loads.h>
 #include <isochor/space/matrix_pattern.h>
 
+#include <algorithm>
+
 namespace isochor
 {
   Evaluation DeadLoad::add(const Vector &state, const double load, const Target &target) const
   {
+    // No share in the tangent. (A formula may fail on one rank only, which is caught where residuals
+    // are asked for.)
+    if (target.tangent != nullptr && target.residual == nullptr)
+      return {};
+
     // In proportion to the load factor: fill once for a factor of one.
     const double wanted = varies ? load : 1.;
     if (filled_for != wanted)
@@ -58,6 +65,45 @@ namespace isochor
             for (unsigned int c = 0; c < dim; ++c)
               force.local_element(cells.x[cell * cells.n_x + a] + c)
                   += load * weight[c] * shares[q * cells.n_x + a] * determinant;
+        }
+  }
+
+  template <int dim>
+  DistributedForce<dim>::DistributedForce(const Discretisation<dim>   &discretisation,
+                                          std::vector<Expression<dim>> density)
+    : DeadLoad(
+        discretisation.make_vector(),
+        std::ranges::any_of(density, [](const auto &part) { return part.depends_on_load(); }))
+    , discretisation(discretisation)
+    , density(std::move(density))
+  {
+  }
+
+  template <int dim>
+  void DistributedForce<dim>::fill(const double load, Vector &force) const
+  {
+    const CellTables<dim> &cells = discretisation.cells;
+    const auto             quadrature
+        = cell_quadrature<dim>(cells.kind, std::min(2 * discretisation.x_shape.degree() + 1, 9u));
+    const GeometryTable<dim> geometry(cells, quadrature.get_points());
+    std::vector<double>      shares; // [q * n_x + a]: w_q N_a
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      for (unsigned int a = 0; a < cells.n_x; ++a)
+        shares.push_back(quadrature.weight(q)
+                         * discretisation.x_shape.value(a, quadrature.point(q)));
+
+    for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          const auto   position = geometry.position(cell, q);
+          const double dV       = geometry.determinant(cell, q); // per quadrature weight
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double f = load * dV * density[c].value(position, load);
+              for (unsigned int a = 0; a < cells.n_x; ++a)
+                force.local_element(cells.x[cell * cells.n_x + a] + c)
+                    += f * shares[q * cells.n_x + a];
+            }
         }
   }
 
@@ -181,6 +227,8 @@ namespace isochor
 
   template class BodyForce<2>;
   template class BodyForce<3>;
+  template class DistributedForce<2>;
+  template class DistributedForce<3>;
   template class TractionLoad<2>;
   template class TractionLoad<3>;
   template class FollowerPressure<2>;

@@ -68,12 +68,14 @@ namespace isochor
 
   template <int dim>
   Probes<dim>::Probes(const Discretisation<dim>            &discretisation,
+                      const Material                       &material,
                       const std::vector<ProbeRequest<dim>> &requests,
                       const BoundaryId                     &boundary_id)
     : discretisation(discretisation)
     , faces(discretisation,
             std::max(FaceTables<dim>::exact_degree(discretisation),
                      2 * discretisation.x_shape.trace_degree()))
+    , error_norms(discretisation, material)
   {
     const CellTables<dim> &cells = discretisation.cells;
     for (const auto &request : requests)
@@ -110,6 +112,11 @@ namespace isochor
   void Probes<dim>::add_columns(const ProbeRequest<dim> &request)
   {
     std::string unit = "m";
+    if (!request.exact.empty())
+      {
+        columns_.push_back({request.name, ErrorNorms<dim>::unit(request.kind)});
+        return;
+      }
     if (request.kind == ProbeKind::volume || request.kind == ProbeKind::cavity_volume)
       {
         columns_.push_back({request.name, dim == 2 ? "m^2" : "m^3"});
@@ -287,7 +294,8 @@ namespace isochor
   }
 
   template <int dim>
-  std::vector<double> Probes<dim>::measure(const Vector &state, const Vector &reactions) const
+  std::vector<double>
+  Probes<dim>::measure(const Vector &state, const Vector &reactions, const double load) const
   {
     std::vector<double> values;
     const auto          append = [&](const std::vector<double> &more) {
@@ -321,6 +329,11 @@ namespace isochor
               append(components(probe, sum_over_ranks(total, discretisation.communicator())));
               break;
             }
+          case ProbeKind::displacement_l2_error:
+          case ProbeKind::displacement_h1_error:
+          case ProbeKind::pressure_l2_error:
+            append({error_norms.measure(probe.request, state, load)});
+            break;
         }
     return values;
   }

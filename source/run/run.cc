@@ -85,7 +85,7 @@ namespace isochor
     std::optional<Stopwatch::Scope> setup_scope(std::in_place, stopwatch, Phase::setup);
     const Discretisation<dim> discretisation(mesh->triangulation, method.element, mesh->geometry);
     const Equilibrium<dim>    equilibrium(discretisation, scene, boundary_id, method.compliance);
-    const Probes<dim>         probes(discretisation, scene.probes, boundary_id);
+    const Probes<dim>         probes(discretisation, scene.material, scene.probes, boundary_id);
     setup_scope.reset();
     result.cells         = discretisation.n_cells;
     result.unknowns      = discretisation.n_unknowns();
@@ -118,7 +118,7 @@ namespace isochor
     StepTable      steps(settings, probes.columns());
     const auto     measure = [&](const double load) {
       equilibrium.residual(state, load, scratch, &reactions);
-      return probes.measure(state, reactions);
+      return probes.measure(state, reactions, load);
     };
 
     MarchCallbacks callbacks;

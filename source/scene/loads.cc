@@ -6,9 +6,26 @@ namespace isochor::scene_parts
 
   namespace
   {
-    constexpr const char *gravity_key  = "Gravity";
-    constexpr const char *traction_key = "Traction";
-    constexpr const char *pressure_key = "Pressure";
+    constexpr const char *gravity_key    = "Gravity";
+    constexpr const char *body_force_key = "Body force";
+    constexpr const char *traction_key   = "Traction";
+    constexpr const char *pressure_key   = "Pressure";
+
+    /// One formula per direction. @p form is what is allowed.
+    template <int dim>
+    std::vector<Expression<dim>>
+    parse_formulas(const std::string &text, const std::string &origin, const std::string &form)
+    {
+      const auto words = split_list(text, ',');
+      if (words.size() != dim)
+        throw UserError(origin + ": " + std::to_string(words.size())
+                        + (words.size() == 1 ? " component" : " components") + " in a body of "
+                        + std::to_string(dim) + " dimensions; allowed: " + form);
+      std::vector<Expression<dim>> formulas;
+      for (const std::string &word : words)
+        formulas.emplace_back(word, origin);
+      return formulas;
+    }
   } // namespace
 
   void declare_loads(dealii::ParameterHandler &prm)
@@ -18,6 +35,13 @@ namespace isochor::scene_parts
                       Patterns::Anything(),
                       "Acceleration of gravity in m/s^2, one number per direction, multiplied by "
                       "the load factor. Default: zero. Example: 0, -9.8, 0");
+    prm.declare_entry(body_force_key,
+                      "",
+                      Patterns::Anything(),
+                      "Dead force in N/m^3 of reference volume: FX, FY, FZ (2D: FX, FY). Each "
+                      "component is a formula in x, y, z (reference position, m) and load (the "
+                      "load factor, 0 to 1), and is additionally multiplied by the load factor. It "
+                      "comes on top of Gravity. Default: none. Example: 0, 1e3*sin(pi*x), 0");
     prm.declare_entry(traction_key,
                       "",
                       Patterns::Anything(),
@@ -42,22 +66,19 @@ namespace isochor::scene_parts
     if (const std::string gravity = trim(prm.get(gravity_key)); !gravity.empty())
       scene.gravity = parse_vector<dim>(gravity, std::string("Scene/") + gravity_key);
 
+    if (const std::string force = trim(prm.get(body_force_key)); !force.empty())
+      scene.body_force
+          = parse_formulas<dim>(force,
+                                std::string("Scene/") + body_force_key,
+                                dim == 2 ? "FX, FY with formulas" : "FX, FY, FZ with formulas");
+
     const std::string form
         = dim == 2 ? "BOUNDARY: TX, TY with formulas" : "BOUNDARY: TX, TY, TZ with formulas";
     for (const Entry &entry : entries_of(prm, traction_key, form))
       {
         check_boundary_name(entry.name, entry.origin);
-        const auto words = split_list(entry.value, ',');
-        if (words.size() != dim)
-          throw UserError(entry.origin + ": " + std::to_string(words.size())
-                          + (words.size() == 1 ? " component" : " components") + " in a body of "
-                          + std::to_string(dim) + " dimensions; allowed: " + form);
-        Traction<dim> traction;
-        traction.boundary = entry.name;
-        traction.origin   = entry.origin;
-        for (const std::string &word : words)
-          traction.components.emplace_back(word, entry.origin);
-        scene.tractions.push_back(traction);
+        scene.tractions.push_back(
+            {entry.name, parse_formulas<dim>(entry.value, entry.origin, form), entry.origin});
       }
 
     for (const Entry &entry :
@@ -70,7 +91,7 @@ namespace isochor::scene_parts
                             "FORMULA, such as inner: 10e3 (forces with a direction: Scene/"
                           + traction_key + ")");
         scene.pressures.push_back(
-            { entry.name, Expression<dim>(entry.value, entry.origin), entry.origin });
+            {entry.name, Expression<dim>(entry.value, entry.origin), entry.origin});
       }
   }
 

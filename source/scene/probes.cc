@@ -13,8 +13,9 @@ namespace isochor::scene_parts
 
     constexpr auto form
         = "'mean|min|max displacement [x|y|z|magnitude] [on BOUNDARY]', 'displacement [x|y|z|"
-          "magnitude] at X, Y, Z', 'volume', 'cavity volume in BOUNDARY' or 'reaction "
-          "[x|y|z|magnitude] on BOUNDARY'";
+          "magnitude] at X, Y, Z', 'volume', 'cavity volume in BOUNDARY', 'reaction "
+          "[x|y|z|magnitude] on BOUNDARY', 'displacement L2|H1 error against UX, UY, UZ' or "
+          "'pressure L2 error [without mean] against P' with formulas";
 
     template <int dim>
     std::optional<unsigned int> component_of(const std::string &word, const std::string &origin)
@@ -33,6 +34,23 @@ namespace isochor::scene_parts
         }
     }
 
+    /// The @p n formulas of an exact field.
+    template <int dim>
+    std::vector<Expression<dim>>
+    parse_exact(const std::string &text, const std::size_t n, const std::string &origin)
+    {
+      const auto words = split_list(text, ',');
+      if (words.size() != n)
+        throw UserError(origin + ": " + std::to_string(words.size())
+                        + (words.size() == 1 ? " formula" : " formulas")
+                        + " for the exact field; allowed in " + std::to_string(dim)
+                        + "D: " + std::to_string(n) + ", separated by commas");
+      std::vector<Expression<dim>> exact;
+      for (const std::string &word : words)
+        exact.emplace_back(word, origin);
+      return exact;
+    }
+
     /// Fills in all but name and origin; false if @p text has none of the forms.
     template <int dim>
     bool fill(ProbeRequest<dim> &probe, const std::string &text)
@@ -43,8 +61,23 @@ namespace isochor::scene_parts
       static const std::regex cavity(R"(cavity volume in (.+))");
       static const std::regex reaction(R"(reaction(?: (?!on )(\S+))? on (.+))");
 
+      static const std::regex displacement_error(R"(displacement (L2|H1) error against (.+))");
+      static const std::regex pressure_error(R"(pressure L2 error( without mean)? against (.+))");
+
       std::smatch match;
-      if (std::regex_match(text, match, extreme))
+      if (std::regex_match(text, match, displacement_error))
+        {
+          probe.kind  = match[1] == "L2" ? ProbeKind::displacement_l2_error
+                                         : ProbeKind::displacement_h1_error;
+          probe.exact = parse_exact<dim>(match[2], dim, probe.origin);
+        }
+      else if (std::regex_match(text, match, pressure_error))
+        {
+          probe.kind         = ProbeKind::pressure_l2_error;
+          probe.without_mean = match[1].matched;
+          probe.exact        = parse_exact<dim>(match[2], 1, probe.origin);
+        }
+      else if (std::regex_match(text, match, extreme))
         {
           probe.kind      = match[1] == "mean"  ? ProbeKind::mean_displacement
                             : match[1] == "min" ? ProbeKind::min_displacement
@@ -88,8 +121,14 @@ namespace isochor::scene_parts
                       "[x|y|z|magnitude] at X, Y, Z (a reference position in m); volume (m^3, 2D: "
                       "m^2) of the deformed body; cavity volume in BOUNDARY (m^3) that the "
                       "deformed boundary encloses; reaction [x|y|z|magnitude] on BOUNDARY (N, 2D: "
-                      "N/m), the force that the supports exert there. Without a component: all of "
-                      "them. Default: none. Example: tip: mean displacement y on right; v: volume");
+                      "N/m), the force that the supports exert there; displacement L2 error "
+                      "against UX, UY, UZ, the norm (m^2.5, 2D: m^2) of the difference from an "
+                      "exact displacement in m; displacement H1 error against UX, UY, UZ, that of "
+                      "the difference of the gradients (m^1.5, 2D: m); pressure L2 error [without "
+                      "mean] against P (Pa m^1.5, 2D: Pa m), without mean if the pressure is known "
+                      "up to a constant. Exact fields are formulas in x, y, z (reference position, "
+                      "m) and load (the load factor). Without a component: all of them. Default: "
+                      "none. Example: tip: mean displacement y on right; v: volume");
   }
 
   template <int dim>

@@ -128,7 +128,13 @@ namespace
     if (dim == 3)
       t.emplace_back("0", "test");
     TractionLoad<dim> traction(discretisation, mesh.boundary_id("right", ""), t);
-    const auto        total = [&](const Term &term, const double load) {
+    // The same formulas have the same means over the unit box.
+    DistributedForce<dim>        distributed(discretisation, t);
+    std::vector<Expression<dim>> constant;
+    for (unsigned int c = 0; c < dim; ++c)
+      constant.emplace_back(std::to_string(3. * g[c]), "test");
+    DistributedForce<dim> weight(discretisation, constant);
+    const auto            total = [&](const Term &term, const double load) {
       return resultant(discretisation, state, residual(term, state, load)).force;
     };
     double                 dead = 0;
@@ -139,6 +145,11 @@ namespace
         expected[0] = -load * 2.;
         expected[1] = load * load * 5.;
         raise(dead, (total(traction, load) - expected).norm());
+        raise(dead, (total(distributed, load) - expected).norm());
+        // A constant density is a weight.
+        Vector difference = residual(body, state, load);
+        difference -= residual(weight, state, load);
+        raise(dead, difference.linfty_norm());
       }
     // A linear traction's moment about the edge of the side: int (1 + 2 y) y dy = 7/6.
     const Vector at_rest = discretisation.make_vector();

@@ -51,6 +51,8 @@ namespace
         std::cout << (support.moves ? ", moves" : ", rests")
                   << ", at load 0.5: " << support.displacement(X, 0.5) << '\n';
       }
+    for (const auto &component : scene.body_force)
+      std::cout << "body force [" << component.text() << "] " << component.value(X, 0.5) << '\n';
     for (const Traction<dim> &traction : scene.tractions)
       {
         std::cout << "traction " << traction.boundary << ":";
@@ -70,6 +72,10 @@ namespace
           std::cout << ", point " << *probe.point;
         if (probe.component)
           std::cout << ", component " << *probe.component;
+        for (const auto &exact : probe.exact)
+          std::cout << ", [" << exact.text() << "] " << exact.value(X, 0.5);
+        if (probe.without_mean)
+          std::cout << ", without mean";
         std::cout << '\n';
       }
     for (const auto &[boundary, origin] : boundary_references(scene))
@@ -163,12 +169,17 @@ int main()
                  "set Fixed components = bottom: y; back: x, z\n"
                  "set Prescribed displacement = right: 0.1*load, max(x, y), - ; top: -, 0, -\n"
                  "set Prescribed rotation = front: 180 about 0, 0, 0 axis 1, 0, 0;\n"
-                 "set Gravity = 0, -9.8, 0\nset Traction = a: 0, 6.25e6, x*load; b: 1, 2, 3\n"
+                 "set Gravity = 0, -9.8, 0\nset Body force = 1e3, max(x, y)*load, -z\n"
+                 "set Traction = a: 0, 6.25e6, x*load; b: 1, 2, 3\n"
                  "set Pressure = inner: 10e3; outer: atan2(y, x)\n"
                  "set Probes = tip: mean displacement on right; top: mean  displacement y on top; "
                  "d: displacement at 1, 0.05, 0.05; m: max displacement magnitude; "
                  "lo: min displacement z on right; v: volume; c: cavity volume in inner; "
-                 "r: reaction on left; rx: reaction x on the wall; e: displacement y at 0,0,0\n"));
+                 "r: reaction on left; rx: reaction x on the wall; e: displacement y at 0,0,0; "
+                 "l: displacement L2 error against x, max(y, z), load; "
+                 "h: displacement H1 error against 0, x*y, 0; "
+                 "p: pressure L2 error against load*x; "
+                 "q: pressure L2 error without mean against max(x, y)\n"));
 
   std::cout << "2D\n";
   print(parse<2>("set Mesh = /meshes/./plate.msh\nset Gravity = 0, -9.8\nset Cells = 4, 5\n"

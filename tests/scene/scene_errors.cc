@@ -106,6 +106,11 @@ int main()
   refuse<3>("set Probes = v: cavity volume");
   refuse<3>("set Probes = v: reaction x");
   refuse<3>("set Probes = v: reaction on left:right");
+  refuse<3>("set Probes = v: pressure H1 error against 0");
+  refuse<2>("set Probes = v: displacement H1 error against 0, 0, 0");
+  refuse<3>("set Probes = v: pressure L2 error without mean against x, y");
+  refuse<3>("set Body force = right: 0, 0, 0");
+  refuse<2>("set Body force = 1, 2, 3");
 
   // Not finite where it is needed, although finite elsewhere.
   const Expression<3> formula("1/x", "Scene/Traction: entry 'right: 1/x, 0, 0'");

@@ -1,7 +1,7 @@
 #pragma once
 
-// External loads, all multiplied by the load factor: body force, dead traction, follower
-// pressure. Their residual is minus the force.
+// External loads, all multiplied by the load factor: weight and other body forces, dead traction,
+// follower pressure. Their residual is minus the force.
 
 #include <isochor/form/term.h>
 #include <isochor/scene/expression.h>
@@ -46,6 +46,25 @@ namespace isochor
   private:
     const Discretisation<dim> &discretisation;
     dealii::Tensor<1, dim>     weight; ///< N/m^3
+  };
+
+  /// int f . u over the reference body, f by formulas in N/m^3. The quadrature is exact for
+  /// formulas that are polynomials of degree k + 1, k that of the displacement: for smooth ones
+  /// its error falls faster than that of the element. The formulas are evaluated once per load
+  /// factor, or once for all if they do not mention it.
+  template <int dim>
+  class DistributedForce : public DeadLoad
+  {
+  public:
+    DistributedForce(const Discretisation<dim>   &discretisation,
+                     std::vector<Expression<dim>> density);
+
+  protected:
+    void fill(double load, Vector &force) const override;
+
+  private:
+    const Discretisation<dim>   &discretisation;
+    std::vector<Expression<dim>> density;
   };
 
   /// int t . u over the reference area of a boundary; components in Pa.

@@ -2,7 +2,7 @@
 
 // Probes: the figures a scene asks for, measured on a state.
 
-#include <isochor/scene/scene.h>
+#include <isochor/measure/error_norms.h>
 #include <isochor/space/face_tables.h>
 
 #include <functional>
@@ -29,6 +29,7 @@ namespace isochor
     /// Collective. Throws UserError for an unknown boundary, a point outside the body, a cavity
     /// whose boundary is not closed.
     Probes(const Discretisation<dim>            &discretisation,
+           const Material                       &material,
            const std::vector<ProbeRequest<dim>> &requests,
            const BoundaryId                     &boundary_id);
 
@@ -37,9 +38,9 @@ namespace isochor
       return columns_;
     }
 
-    /// One value per column. @p state with ghosts; @p reactions as from Equilibrium::residual.
-    /// Collective.
-    std::vector<double> measure(const Vector &state, const Vector &reactions) const;
+    /// One value per column. @p state with ghosts, at load factor @p load; @p reactions as from
+    /// Equilibrium::residual. Collective.
+    std::vector<double> measure(const Vector &state, const Vector &reactions, double load) const;
 
   private:
     struct Probe
@@ -63,6 +64,7 @@ namespace isochor
 
     const Discretisation<dim> &discretisation;
     FaceTables<dim>            faces;
+    ErrorNorms<dim>            error_norms;
     std::vector<Probe>         probes;
     std::vector<ProbeColumn>   columns_;
   };

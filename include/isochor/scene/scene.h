@@ -63,7 +63,10 @@ namespace isochor
     max_displacement,
     volume,
     cavity_volume,
-    reaction
+    reaction,
+    displacement_l2_error,
+    displacement_h1_error,
+    pressure_l2_error
   };
 
   /// A figure that is measured in every run and compared between runs.
@@ -77,15 +80,21 @@ namespace isochor
     /// 0..dim-1: that component; dim: the magnitude; none: all components, one column each.
     std::optional<unsigned int> component = {};
     std::string                 origin    = {}; ///< the parameter and entry, for messages
+    /// Errors: the exact field, dim formulas of a displacement (m) or one of a pressure (Pa).
+    std::vector<Expression<dim>> exact = {};
+    /// pressure_l2_error: both pressures count less their mean over the body.
+    bool without_mean = false;
   };
 
   template <int dim>
   struct Scene
   {
-    MeshRequest                    mesh;
-    Material                       material;
-    std::vector<Support<dim>>      supports;
-    dealii::Tensor<1, dim>         gravity; ///< m/s^2, multiplied by the load factor
+    MeshRequest               mesh;
+    Material                  material;
+    std::vector<Support<dim>> supports;
+    dealii::Tensor<1, dim>    gravity; ///< m/s^2, multiplied by the load factor
+    /// N/m^3 of reference volume, multiplied by the load factor: dim formulas, or none.
+    std::vector<Expression<dim>>   body_force;
     std::vector<Traction<dim>>     tractions;
     std::vector<Pressure<dim>>     pressures;
     std::vector<ProbeRequest<dim>> probes;
