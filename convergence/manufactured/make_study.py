@@ -4,8 +4,8 @@
 The motion is a composition of shears, so that J = 1 exactly:
     x1 = X + a sin(k Y),  x2 = Y + b sin(k x1),  in 3D also x3 = Z + c sin(k x2).
 With the neo-Hookean energy (32) and p Phi(J), P = mu (F - F^-T) + p F^-T. Body force b = -Div P and
-traction P N on the side x = 1 follow; all other sides take the displacement. For a finite bulk
-modulus p = kappa (J - 1) = 0. Each set of formulas is checked against Div P by numbers.
+traction P N follow; some sides take the displacement, the others the traction. For a finite bulk
+modulus p = kappa (J - 1) = 0. Each set of formulas is checked against P and Div P by numbers.
 """
 
 import random
@@ -17,7 +17,7 @@ from sympy.printing.str import StrPrinter
 
 FOLDER = Path(__file__).parent
 COORDINATES = sympy.symbols("x y z")
-LOAD = sympy.Symbol("load")
+SIDES = ["left", "right", "bottom", "top", "back", "front"]  # x = 0, x = 1, y = 0, ...
 
 
 class FormulaPrinter(StrPrinter):
@@ -38,7 +38,7 @@ def formula(expression):
 
 
 class Solution:
-    """Displacement, pressure, body force and traction on x = 1, formulas of x, y, z."""
+    """Displacement, pressure, body force and tractions, formulas of x, y, z."""
 
     def __init__(self, dim, wave_number, amplitude, mu, p):
         self.X = COORDINATES[:dim]
@@ -53,8 +53,9 @@ class Solution:
         # Div F^-T = 0 by Piola's identity.
         self.force = [-sum(mu * diff(F[i, J], self.X[J]) + cofactor[i, J] * diff(p, self.X[J])
                            for J in range(dim)) for i in range(dim)]
-        self.traction = [(mu * (F[i, 0] - cofactor[i, 0]) + p * cofactor[i, 0])
-                         .subs(self.X[0], 1) for i in range(dim)]
+        stress = (mu * (F - cofactor) + p * cofactor)
+        self.traction = {side: [((-1) ** (k + 1) * stress[i, k // 2]).subs(self.X[k // 2], k % 2)
+                                for i in range(dim)] for k, side in enumerate(SIDES[:2 * dim])}
         self.check(F)
 
     def check(self, F):
@@ -78,16 +79,19 @@ class Solution:
                 div += (stress(ahead)[:, J] - stress(behind)[:, J]) / (2 * h)
             for i in range(dim):
                 assert abs(div[i] + place(self.force[i], at)) < 1e-10
-            side = [1] + at[1:]
-            for i in range(dim):
-                assert abs(stress(side)[i, 0] - place(self.traction[i], side)) < 1e-25
+            for k, side in enumerate(SIDES[:2 * dim]):
+                there = [Rational(k % 2) if d == k // 2 else c for d, c in enumerate(at)]
+                for i in range(dim):
+                    pull = (-1) ** (k + 1) * stress(there)[i, k // 2]
+                    assert abs(pull - place(self.traction[side][i], there)) < 1e-25
 
 
-def parameter_file(solution, title, comment, variations, youngs_modulus, poisson_ratio, elements):
+def parameter_file(solution, title, comment, variations, youngs_modulus, poisson_ratio, elements,
+                   free=("right",)):
     dim = len(solution.X)
     u = ", ".join(map(formula, solution.u))
     moved = ", ".join(f"load*({formula(part)})" for part in solution.u)
-    sides = ["left", "bottom", "top"] + (["back", "front"] if dim == 3 else [])
+    sides = SIDES[:2 * dim]
     lines = [f"# {line}" for line in comment] + [
         "# Written by make_study.py, which says where the formulas come from.", "",
         "subsection Scene",
@@ -95,8 +99,9 @@ def parameter_file(solution, title, comment, variations, youngs_modulus, poisson
         *(f"  set {key:22} = {value}" for key, value in variations.items()),
         f"  set Young's modulus        = {youngs_modulus}  # Pa: mu = 1",
         f"  set Poisson ratio          = {poisson_ratio}",
-        f"  set Prescribed displacement = " + "; \\\n    ".join(f"{s}: {moved}" for s in sides),
-        "  set Traction               = right: " + ", ".join(map(formula, solution.traction)),
+        f"  set Prescribed displacement = " + "; \\\n    ".join(f"{side}: {moved}" for side in sides if side not in free),
+        "  set Traction               = " + "; \\\n    ".join(
+            f"{side}: " + ", ".join(map(formula, solution.traction[side])) for side in free),
         "  set Body force             = " + ", ".join(map(formula, solution.force)),
         f"  set Probes                 = u L2: displacement L2 error against {u}; \\",
         f"    u H1: displacement H1 error against {u}; \\",
@@ -118,6 +123,8 @@ def parameter_file(solution, title, comment, variations, youngs_modulus, poisson
 def main():
     x, y, z = COORDINATES
     square = dict(dim=2, wave_number=2, amplitude=Rational(1, 20))
+    cube = dict(dim=3, wave_number=1, amplitude=Rational(1, 10))
+    cubes = {"Mesh": "{{box(1, 1, 1)|unit_cube.geo}}", "Mesh size": "{{0.5|0.25|0.125}}"}
     sizes = "{{0.2|0.1|0.05|0.025}}"
     meshes = "{{rectangle(1, 1)|unit_square.geo}}"
     files = {
@@ -139,12 +146,22 @@ def main():
             {"Mesh": "unit_square.geo", "Mesh size": sizes}, 2.9998, 0.4999,
             "P1|P2|P3|P1-P1|P2-P1|P3-P2"),
         "cube": parameter_file(
-            Solution(dim=3, wave_number=1, amplitude=Rational(1, 10), mu=1,
-                     p=cos(pi * x) * cos(pi * y) * cos(pi * z) + x),
-            "Manufactured solution, unit cube, nu = 0.5",
-            ["Manufactured solution with J = 1, unit cube, incompressible: the pairs."],
-            {"Mesh": "{{box(1, 1, 1)|unit_cube.geo}}", "Mesh size": "{{0.5|0.25|0.125}}"},
-            3, 0.5, "P1-P1|P2-P1|P3-P2"),
+            Solution(**cube, mu=1, p=(1 + cos(pi * x) * cos(pi * y) * cos(pi * z)) / 2),
+            "Manufactured solution, unit cube held on one side, nu = 0.5",
+            ["Manufactured solution with J = 1, unit cube, incompressible: the pairs. One side takes",
+             "the displacement, so that no cell has all its vertices where it is prescribed."],
+            cubes, 3, 0.5, "P1-P1|P2-P1|P3-P2", free=SIDES[1:]),
+        "cube_clamped": parameter_file(
+            Solution(**cube, mu=1, p=(1 + cos(pi * x) * cos(pi * y) * cos(pi * z)) / 2),
+            "Manufactured solution, unit cube held on five sides, nu = 0.5",
+            ["Manufactured solution with J = 1, unit cube, incompressible: five sides take the",
+             "displacement, so that cells along edges have all their vertices there."],
+            cubes, 3, 0.5, "P1-P1|P2-P1|P3-P2"),
+        "cube_compressible": parameter_file(
+            Solution(**cube, mu=1, p=0),
+            "Manufactured solution, unit cube, nu = 0.3",
+            ["Manufactured solution with J = 1, unit cube, nu = 0.3: the displacement elements."],
+            cubes, 2.6, 0.3, "P1|P2|P3"),
     }
     for name, text in files.items():
         (FOLDER / f"{name}.prm").write_text(text)
