@@ -128,7 +128,8 @@ namespace
         all_prescribed(distorted[element.kind], element, energy);
     out() << dim << "D, tetrahedra and triangles by gmsh, distorted hexahedra and quadrilaterals\n";
     for (const Element &element : element_table())
-      if (element.is_mixed())
+      // P1-P0 has more pressures than displacements can feel: singular at nu = 0.5.
+      if (element.is_mixed() && element.name != "P1-P0")
         traction(element.kind == CellKind::simplex ? *by_gmsh : distorted[element.kind], element);
   }
 } // namespace

@@ -184,7 +184,8 @@ int main(int argc, char **argv)
   const auto                  quads  = distorted_box<2>(4, CellKind::hypercube);
   const auto                  hexes  = distorted_box<3>(3, CellKind::hypercube);
   for (const Element &element : element_table())
-    if (element.is_mixed())
+    // P1-P0 has more pressures than displacements can feel: singular at nu = 0.5.
+    if (element.is_mixed() && element.name != "P1-P0")
       {
         out() << element.name << " in 2D\n";
         incompressible(element.kind == CellKind::simplex ? *square : *quads, element);

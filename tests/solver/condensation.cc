@@ -47,9 +47,18 @@ namespace
 
   double difference(const Vector &a, const Vector &b)
   {
-    Vector d(a);
+    Vector d(a.get_partitioner());
+    d = a;
     d -= b;
     return d.linfty_norm() / a.linfty_norm();
+  }
+
+  template <int dim>
+  double displacement_difference(const Discretisation<dim> &discretisation, Vector a, Vector b)
+  {
+    for (LocalIndex i = discretisation.n_owned_displacements; i < a.locally_owned_size(); ++i)
+      a.local_element(i) = b.local_element(i) = 0.;
+    return difference(a, b);
   }
 
   template <int dim>
@@ -69,15 +78,14 @@ namespace
           << ", same iterations "
           << yes(kept.report.newton_iterations == condensed.report.newton_iterations)
           << ", pivot excess " << kept.statistics.pivot_excess.value_or(-1) << ' '
-          << condensed.statistics.pivot_excess.value_or(-1) << ", fewer operations "
-          << yes(condensed.statistics.flops < kept.statistics.flops) << '\n';
+          << condensed.statistics.pivot_excess.value_or(-1) << '\n';
     if (lumped)
       {
         const auto consistent
             = solved(mesh, discretisation, Condensation::none, false, poisson_ratio);
-        const double apart = difference(consistent.state, kept.state);
-        out() << "    the consistent matrix gives another state: "
-              << yes(apart > 1e-6 && apart < 0.2) << '\n';
+        const double apart = displacement_difference(discretisation, consistent.state, kept.state);
+        out() << "    the consistent matrix gives another displacement, by a little: "
+              << yes(apart > 1e-6 && apart < 0.1) << '\n';
       }
   }
 
