@@ -91,7 +91,8 @@ def against_published(study, file):
             if expected is None:
                 continue
             found = number(runs[0][column]) if runs else None
-            deviation = None if found is None else found / expected - 1
+            deviation = (None if found is None else found / expected - 1 if expected else
+                         0. if found == 0 else float("inf"))
             entries.append(Published({n: row[n] for n in settings}, column, expected, found,
                                      deviation, float(row["tolerance"])))
     return entries
