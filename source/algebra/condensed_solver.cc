@@ -1,6 +1,6 @@
-#include <isochor/algebra/condensed_solver.h>
+#include "ghost_rows.h"
 
-#include <deal.II/base/mpi.h>
+#include <isochor/algebra/condensed_solver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,6 @@ namespace isochor
 {
   namespace
   {
-    constexpr std::uint32_t eliminated = -1;
-
     /// Invert the symmetric @p A by LDL^T without pivoting, which blocks of one cell do not need:
     /// they are definite. False if a pivot vanishes against the block's diagonal. Adds to the
     /// number of negative pivots.
@@ -44,19 +42,6 @@ namespace isochor
       return true;
     }
 
-    /// Number of the first row of this rank, and of all rows.
-    std::pair<GlobalIndex, GlobalIndex> first_and_total(const std::size_t n, MPI_Comm communicator)
-    {
-      std::pair<GlobalIndex, GlobalIndex> result{0, 0};
-      const unsigned int rank   = dealii::Utilities::MPI::this_mpi_process(communicator);
-      const auto         counts = dealii::Utilities::MPI::all_gather(communicator, n);
-      for (unsigned int r = 0; r < counts.size(); ++r)
-        {
-          result.first += r < rank ? counts[r] : 0;
-          result.second += counts[r];
-        }
-      return result;
-    }
   } // namespace
 
   CondensedSolver::CondensedSolver(std::unique_ptr<DirectSolver> solver, std::vector<Group> groups)
@@ -100,138 +85,6 @@ namespace isochor
     solver->analyse(reduced, nodes, n_nodes);
     reduced_rhs.reinit(reduced.partitioner());
     reduced_solution.reinit(reduced.partitioner());
-  }
-
-  CondensedSolver::Partition CondensedSolver::make_blocks(const SparseMatrix &matrix)
-  {
-    using Columns = std::vector<GlobalIndex>;
-
-    const auto    &whole        = *matrix.partitioner();
-    const MPI_Comm communicator = whole.get_mpi_communicator();
-
-    // Columns of the blocks, and which ranks' rows they add to.
-    blocks.clear();
-    std::vector<Columns>                         columns;
-    std::map<unsigned int, std::vector<Columns>> outgoing;
-    std::vector<unsigned int>                    owner(reduced_index.size(),
-                                    dealii::Utilities::MPI::this_mpi_process(communicator));
-    std::size_t next = matrix.n_rows(); // ghosts are sorted by rank
-    for (const auto &[rank, n] : whole.ghost_targets())
-      for (unsigned int k = 0; k < n; ++k)
-        owner[next++] = rank;
-
-    sent.clear();
-    for (const auto &[first, n] : groups)
-      {
-        Block   block{first, n, {}, {}, {}, {}, {}};
-        Columns of_block;
-        for (LocalIndex row = first; row < first + n; ++row)
-          for (std::size_t k = matrix.row_start()[row]; k < matrix.row_start()[row + 1]; ++k)
-            {
-              const LocalIndex column = matrix.columns()[k];
-              if (reduced_index[column] < 0)
-                continue;
-              block.entries.push_back(k);
-              if (row > first)
-                continue;
-              of_block.push_back(reduced_index[column]);
-              const unsigned int rank = owner[column];
-              if (rank == owner[first])
-                continue;
-              auto &to_rank = sent[rank];
-              if (to_rank.empty() || to_rank.back() != blocks.size())
-                to_rank.push_back(blocks.size());
-            }
-        if (block.entries.size() != n * of_block.size())
-          throw std::logic_error("the rows of a group have different columns");
-        block.inverse.resize(n * n);
-        blocks.push_back(std::move(block));
-        columns.push_back(std::move(of_block));
-      }
-    for (const auto &[rank, numbers] : sent)
-      for (const std::size_t number : numbers)
-        outgoing[rank].push_back(columns[number]);
-    const auto incoming = dealii::Utilities::MPI::some_to_some(communicator, outgoing);
-
-    // Ghosts of the reduced system: what its rows couple with, before or after the elimination.
-    std::vector<GlobalIndex> ghosts;
-    const auto               begin = first_and_total(retained.size(), communicator);
-    dealii::IndexSet         owned(begin.second), relevant(begin.second);
-    owned.add_range(begin.first, begin.first + retained.size());
-    for (std::size_t k = matrix.n_rows(); k < reduced_index.size(); ++k)
-      if (reduced_index[k] >= 0)
-        ghosts.push_back(reduced_index[k]);
-    for (const auto &[rank, lists] : incoming)
-      for (const Columns &list : lists)
-        ghosts.insert(ghosts.end(), list.begin(), list.end());
-    std::sort(ghosts.begin(), ghosts.end());
-    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    relevant.add_indices(ghosts.begin(), ghosts.end());
-    relevant.subtract_set(owned);
-    const auto partitioner
-        = std::make_shared<SparseMatrix::Partitioner>(owned, relevant, communicator);
-
-    const auto to_local = [&](const Columns &global) {
-      std::vector<LocalIndex> local;
-      for (const GlobalIndex g : global)
-        local.push_back(partitioner->global_to_local(g));
-      return local;
-    };
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      blocks[b].columns = to_local(columns[b]);
-    received.clear();
-    for (const auto &[rank, lists] : incoming)
-      for (const Columns &list : lists)
-        received[rank].push_back(to_local(list));
-    return partitioner;
-  }
-
-  void CondensedSolver::make_pattern(const SparseMatrix &matrix, const Partition &partitioner)
-  {
-    const LocalIndex n = retained.size();
-
-    // Lists of columns that are added to each row.
-    std::vector<std::vector<const std::vector<LocalIndex> *>> added(n);
-    const auto add = [&](const std::vector<LocalIndex> &columns) {
-      for (const LocalIndex row : columns)
-        if (row < n)
-          added[row].push_back(&columns);
-    };
-    for (const Block &block : blocks)
-      add(block.columns);
-    for (const auto &[rank, lists] : received)
-      for (const Foreign &list : lists)
-        add(list);
-
-    std::vector<LocalIndex> to_reduced(reduced_index.size());
-    for (std::size_t k = 0; k < reduced_index.size(); ++k)
-      if (reduced_index[k] >= 0)
-        to_reduced[k] = partitioner->global_to_local(reduced_index[k]);
-
-    std::vector<std::size_t> row_start(n + 1, 0);
-    std::vector<LocalIndex>  all_columns, of_row;
-    place.assign(matrix.columns().size(), eliminated);
-    for (LocalIndex row = 0; row < n; ++row)
-      {
-        of_row.clear();
-        const auto first = matrix.row_start()[retained[row]];
-        const auto last  = matrix.row_start()[retained[row] + 1];
-        for (std::size_t k = first; k < last; ++k)
-          if (reduced_index[matrix.columns()[k]] >= 0)
-            of_row.push_back(to_reduced[matrix.columns()[k]]);
-        for (const auto *columns : added[row])
-          of_row.insert(of_row.end(), columns->begin(), columns->end());
-        std::sort(of_row.begin(), of_row.end());
-        of_row.erase(std::unique(of_row.begin(), of_row.end()), of_row.end());
-        for (std::size_t k = first; k < last; ++k)
-          if (reduced_index[matrix.columns()[k]] >= 0)
-            place[k]
-                = std::lower_bound(of_row.begin(), of_row.end(), to_reduced[matrix.columns()[k]])
-                  - of_row.begin();
-        row_start[row + 1] = row_start[row] + of_row.size();
-        all_columns.insert(all_columns.end(), of_row.begin(), of_row.end());
-      }
-    reduced.reinit(partitioner, std::move(row_start), std::move(all_columns));
   }
 
   bool CondensedSolver::eliminate(const SparseMatrix &matrix,
@@ -311,11 +164,7 @@ namespace isochor
     const MPI_Comm communicator = partitioner.get_mpi_communicator();
     if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
-    std::vector<unsigned int> owner(partitioner.n_ghost_indices());
-    std::size_t               next = 0;
-    for (const auto &[rank, n] : partitioner.ghost_targets())
-      for (unsigned int k = 0; k < n; ++k)
-        owner[next++] = rank;
+    const std::vector<unsigned int>             owner = ghost_owners(partitioner);
     std::map<unsigned int, std::vector<double>> outgoing;
     for (const auto &[rank, numbers] : sent)
       for (const std::size_t number : numbers)
@@ -351,7 +200,7 @@ namespace isochor
       for (std::size_t k = matrix.row_start()[retained[row]];
            k < matrix.row_start()[retained[row] + 1];
            ++k)
-        if (place[k] != eliminated)
+        if (place[k] != eliminated_column)
           values[reduced.row_start()[row] + place[k]] = matrix.values()[k];
 
     std::size_t  negative_pivots = 0;

@@ -64,9 +64,10 @@ namespace isochor
 
     /// Of each unknown of the whole matrix, ghosts behind: its reduced global index, -1 if it is
     /// eliminated.
-    std::vector<long long>  reduced_index;
-    std::vector<LocalIndex> retained; ///< owned rows of the whole matrix that stay
-    std::vector<Block>      blocks;
+    std::vector<long long>         reduced_index;
+    std::vector<LocalIndex>        retained; ///< owned rows of the whole matrix that stay
+    std::vector<Block>             blocks;
+    static constexpr std::uint32_t eliminated_column = -1;
     std::vector<std::uint32_t>
         place; ///< of each entry of a retained row: offset in its reduced row
 
