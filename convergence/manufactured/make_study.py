@@ -127,14 +127,17 @@ def main():
     # Tension everywhere: sides that dead tractions compress would wrinkle.
     p = 1 + cos(pi * x) * cos(pi * y) * cos(pi * z) / 2
     cubes = {"Mesh": "{{box(1, 1, 1)|unit_cube.geo}}", "Mesh size": "{{0.5|0.3333|0.25|0.1667}}"}
+    pairs = "P1-P1|P1-P1s|MINI|P2-P0|P2-P1|P3-P2"
     sizes = "{{0.2|0.1|0.05|0.025}}"
     meshes = "{{rectangle(1, 1)|unit_square.geo}}"
+    quadrilaterals = "{{rectangle(1, 1)|unit_square_quadrilaterals.geo}}"
+    p_square = cos(pi * x) * cos(pi * y) + x
     files = {
         "study": parameter_file(
-            Solution(**square, mu=1, p=cos(pi * x) * cos(pi * y) + x),
+            Solution(**square, mu=1, p=p_square),
             "Manufactured solution, plane strain, nu = 0.5",
             ["Manufactured solution with J = 1, plane strain, incompressible: the pairs."],
-            {"Mesh": meshes, "Mesh size": sizes}, 3, 0.5, "P1-P1|P2-P1|P3-P2"),
+            {"Mesh": meshes, "Mesh size": sizes}, 3, 0.5, pairs),
         "compressible": parameter_file(
             Solution(**square, mu=1, p=0),
             "Manufactured solution, plane strain, nu = 0.3",
@@ -146,19 +149,35 @@ def main():
             ["Manufactured solution with J = 1, plane strain, nu = 0.4999: what displacement",
              "elements lose, and pairs do not."],
             {"Mesh": "unit_square.geo", "Mesh size": sizes}, 2.9998, 0.4999,
-            "P1|P2|P3|P1-P1|P2-P1|P3-P2"),
+            "P1|P2|P3|P1-P1|P1-P1s|MINI|P2-P1|P3-P2"),
+        "quadrilaterals": parameter_file(
+            Solution(**square, mu=1, p=p_square),
+            "Manufactured solution, quadrilaterals, nu = 0.5",
+            ["Manufactured solution with J = 1, plane strain, incompressible: quadrilaterals."],
+            {"Mesh": quadrilaterals, "Mesh size": sizes}, 3, 0.5, "Q1-P0|Q2-P1"),
+        "quadrilaterals_compressible": parameter_file(
+            Solution(**square, mu=1, p=0),
+            "Manufactured solution, quadrilaterals, nu = 0.3",
+            ["Manufactured solution with J = 1, plane strain, nu = 0.3: quadrilaterals."],
+            {"Mesh": quadrilaterals, "Mesh size": sizes}, 2.6, 0.3, "Q1|Q2"),
+        "hexahedra": parameter_file(
+            Solution(**cube, mu=1, p=p),
+            "Manufactured solution, hexahedra, nu = 0.5",
+            ["Manufactured solution with J = 1, unit cube, incompressible: hexahedra."],
+            {"Mesh": "box(1, 1, 1)", "Mesh size": "{{0.5|0.3333|0.25|0.1667}}"}, 3, 0.5,
+            "Q1-P0|Q2-P1", free=SIDES[1:]),
         "cube": parameter_file(
             Solution(**cube, mu=1, p=p),
             "Manufactured solution, unit cube held on one side, nu = 0.5",
             ["Manufactured solution with J = 1, unit cube, incompressible: the pairs. One side takes",
              "the displacement, so that no cell has all its vertices where it is prescribed."],
-            cubes, 3, 0.5, "P1-P1|P2-P1|P3-P2", free=SIDES[1:]),
+            cubes, 3, 0.5, pairs, free=SIDES[1:]),
         "cube_clamped": parameter_file(
             Solution(**cube, mu=1, p=p),
             "Manufactured solution, unit cube held on five sides, nu = 0.5",
             ["Manufactured solution with J = 1, unit cube, incompressible: five sides take the",
              "displacement, so that cells along edges have all their vertices there."],
-            cubes, 3, 0.5, "P1-P1|P2-P1|P3-P2"),
+            cubes, 3, 0.5, pairs),
         "cube_compressible": parameter_file(
             Solution(**cube, mu=1, p=0),
             "Manufactured solution, unit cube, nu = 0.3",

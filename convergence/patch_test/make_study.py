@@ -18,6 +18,7 @@ F = {2: [["6/5", "3/10"], ["1/10", "103/120"]],
      3: [["5/4", "3/10", "0"], ["1/10", "103/125", "1/5"], ["0", "3/20", "83/80"]]}
 SIDES = ["left", "right", "bottom", "top", "back", "front"]  # x = 0, x = 1, y = 0, ...
 MESH = {2: "distorted_square.geo", 3: "distorted_cube.geo"}
+PAIRS = "P1-P1|P1-P1s|MINI|P2-P0|P2-P1|P3-P2"
 SIZES = {2: "{{0.4|0.2}}", 3: "{{0.5|0.3}}"}
 
 
@@ -27,7 +28,8 @@ def minor(matrix, i, j):
     return rows[0][0] if len(rows) == 1 else rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0]
 
 
-def parameter_file(dim, p, youngs_modulus, poisson_ratio, elements, what, free):
+def parameter_file(dim, p, youngs_modulus, poisson_ratio, elements, what, free,
+                   mesh=None):
     gradient = [[Fraction(entry) for entry in row] for row in F[dim]]
     cofactor = [[(-1) ** (i + j) * minor(gradient, i, j) for j in range(dim)] for i in range(dim)]
     assert sum(gradient[0][j] * cofactor[0][j] for j in range(dim)) == 1
@@ -47,7 +49,7 @@ def parameter_file(dim, p, youngs_modulus, poisson_ratio, elements, what, free):
 
 subsection Scene
   set Dimension               = {dim}
-  set Mesh                    = {MESH[dim]}
+  set Mesh                    = {mesh or MESH[dim]}
   set Mesh size               = {SIZES[dim]}
   set Young's modulus         = {youngs_modulus}  # Pa: mu = 1
   set Poisson ratio           = {poisson_ratio}
@@ -75,12 +77,16 @@ end
 
 def main():
     files = {
-        "study": (2, "0.7", 3, 0.5, "P1-P1|P2-P1|P3-P2", "plane strain, nu = 0.5", SIDES[1:]),
-        "square_displacement": (2, "0", 2.6, 0.3, "P1|P2|P3", "plane strain, nu = 0.3",
+        "study": (2, "0.7", 3, 0.5, PAIRS, "plane strain, nu = 0.5", SIDES[1:]),
+        "square_displacement": (2, "0", 2.6, 0.3, "P1|P2|P3|P1-P0", "plane strain, nu = 0.3",
                                 ["right"]),
-        "cube": (3, "0.7", 3, 0.5, "P1-P1|P2-P1|P3-P2", "three dimensions, nu = 0.5",
+        "quadrilaterals": (2, "0.7", 3, 0.5, "Q1-P0|Q2-P1", "quadrilaterals, nu = 0.5",
+                           SIDES[1:], "distorted_quadrilaterals.geo"),
+        "quadrilaterals_displacement": (2, "0", 2.6, 0.3, "Q1|Q2", "quadrilaterals, nu = 0.3",
+                                        ["right"], "distorted_quadrilaterals.geo"),
+        "cube": (3, "0.7", 3, 0.5, PAIRS, "three dimensions, nu = 0.5",
                  SIDES[1:]),
-        "cube_displacement": (3, "0", 2.6, 0.3, "P1|P2|P3", "three dimensions, nu = 0.3",
+        "cube_displacement": (3, "0", 2.6, 0.3, "P1|P2|P3|P1-P0", "three dimensions, nu = 0.3",
                               ["right"]),
     }
     for name, arguments in files.items():
