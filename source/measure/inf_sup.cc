@@ -84,8 +84,9 @@ namespace isochor
       {
         assemble(strain, stabilisation, state);
         // Held displacements are no test functions.
-        Vector nothing = discretisation.make_vector();
-        prescribed.apply(saddle, nothing, nothing);
+        Vector rhs = discretisation.make_vector(), gap(rhs);
+        gap.update_ghost_values();
+        prescribed.apply(saddle, rhs, gap);
         shifted = saddle;
         solver.analyse(saddle, discretisation.node_of_row, discretisation.n_nodes);
       }
