@@ -69,6 +69,15 @@ namespace isochor
   }
 
   template <int dim>
+  dealii::Point<dim> reference_centre(const CellKind kind)
+  {
+    dealii::Point<dim> centre;
+    for (unsigned int d = 0; d < dim; ++d)
+      centre[d] = kind == CellKind::simplex ? 1. / (dim + 1) : 0.5;
+    return centre;
+  }
+
+  template <int dim>
   const std::vector<std::array<unsigned int, 2>> &reference_edges(const CellKind kind)
   {
     static const std::array edges{make_edges<dim>(CellKind::simplex),
@@ -89,6 +98,8 @@ namespace isochor
   template dealii::Point<1>                                reference_vertex(CellKind, unsigned int);
   template dealii::Point<2>                                reference_vertex(CellKind, unsigned int);
   template dealii::Point<3>                                reference_vertex(CellKind, unsigned int);
+  template dealii::Point<2>                                reference_centre(CellKind);
+  template dealii::Point<3>                                reference_centre(CellKind);
   template const std::vector<std::array<unsigned int, 2>> &reference_edges<2>(CellKind);
   template const std::vector<std::array<unsigned int, 2>> &reference_edges<3>(CellKind);
   template const std::vector<std::vector<unsigned int>>   &reference_faces<2>(CellKind);

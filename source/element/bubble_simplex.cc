@@ -16,7 +16,7 @@ namespace isochor
   template <int dim>
   dealii::Point<dim> BubbleSimplex<dim>::node(const unsigned int i) const
   {
-    return i <= dim ? linear.node(i) : LagrangeSimplex<dim>(0).node(0);
+    return i <= dim ? linear.node(i) : reference_centre<dim>(CellKind::simplex);
   }
 
   template <int dim>

@@ -123,10 +123,7 @@ namespace isochor
   template <int dim>
   dealii::Point<dim> DiscontinuousHypercube<dim>::node(unsigned int /*i*/) const
   {
-    dealii::Point<dim> centre;
-    for (unsigned int d = 0; d < dim; ++d)
-      centre[d] = .5;
-    return centre;
+    return reference_centre<dim>(CellKind::hypercube);
   }
 
   template <int dim>

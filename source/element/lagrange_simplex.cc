@@ -70,9 +70,11 @@ namespace isochor
   template <int dim>
   dealii::Point<dim> LagrangeSimplex<dim>::node(const unsigned int i) const
   {
+    if (degree_ == 0)
+      return reference_centre<dim>(CellKind::simplex);
     dealii::Point<dim> xi;
     for (unsigned int d = 0; d < dim; ++d)
-      xi[d] = degree_ == 0 ? 1. / (dim + 1) : double(indices[i][d + 1]) / degree_;
+      xi[d] = double(indices[i][d + 1]) / degree_;
     return xi;
   }
 

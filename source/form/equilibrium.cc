@@ -15,13 +15,13 @@ namespace isochor
       const CellTables<dim> &cells = discretisation.cells;
       const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.quadrature_degree());
       const GeometryTable<dim> geometry(cells, quadrature.get_points());
+      const ShapeTable<dim>    shape(discretisation.p_shape, quadrature.get_points());
       Vector                   volume = discretisation.make_vector();
       for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
         for (unsigned int j = 0; j < cells.n_p; ++j)
           for (unsigned int q = 0; q < quadrature.size(); ++q)
             volume.local_element(cells.p[cell * cells.n_p + j])
-                += quadrature.weight(q) * geometry.determinant(cell, q)
-                   * discretisation.p_shape.value(j, quadrature.point(q));
+                += quadrature.weight(q) * geometry.determinant(cell, q) * shape.value(q, j);
       volume.zero_out_ghost_values();
       return volume.l2_norm();
     }
@@ -68,12 +68,6 @@ namespace isochor
 
     if (discretisation.n_pressures > 0)
       volume_scale = pressure_volume(discretisation);
-
-    double cell_sizes = 0;
-    for (std::size_t cell = 0; cell < discretisation.cells.n_owned; ++cell)
-      cell_sizes += std::pow(discretisation.cells.determinant[cell], 1. / dim);
-    cell_size = dealii::Utilities::MPI::sum(cell_sizes, discretisation.communicator())
-                / double(discretisation.n_cells);
 
     SparseMatrix at_rest = pattern;
     tangent(discretisation.make_vector(), 0., at_rest);
@@ -132,8 +126,8 @@ namespace isochor
     ResidualSize size;
     const double force_scale = std::sqrt(std::max(all[2], all[3]));
     // F = 1 + grad u rounds like a displacement of one cell even where u is much smaller.
-    const double floor
-        = 16. * std::numeric_limits<double>::epsilon() * stiffness_scale * (largest + cell_size);
+    const double floor = 16. * std::numeric_limits<double>::epsilon() * stiffness_scale
+                         * (largest + discretisation_.mean_cell_size);
     size.force      = all[0] == 0. ? 0. : std::sqrt(all[0]) / force_scale;
     size.rounding   = floor == 0. ? 0. : floor / force_scale;
     size.constraint = volume_scale > 0 ? std::sqrt(all[1]) / volume_scale : 0.;

@@ -35,6 +35,31 @@ namespace isochor
     return evaluation;
   }
 
+  namespace
+  {
+    /// force += int f N dV with a quadrature exact to @p degree; @p density(position): f in N/m^3.
+    template <int dim, typename Density>
+    void add_volume_force(const Discretisation<dim> &discretisation,
+                          const unsigned int         degree,
+                          const Density             &density,
+                          Vector                    &force)
+    {
+      const CellTables<dim>   &cells      = discretisation.cells;
+      const auto               quadrature = cell_quadrature<dim>(cells.kind, degree);
+      const GeometryTable<dim> geometry(cells, quadrature.get_points());
+      const ShapeTable<dim>    shape(discretisation.x_shape, quadrature.get_points());
+      for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            const double                 dV = geometry.determinant(cell, q) * quadrature.weight(q);
+            const dealii::Tensor<1, dim> f  = density(geometry.position(cell, q)) * dV;
+            for (unsigned int a = 0; a < cells.n_x; ++a)
+              for (unsigned int c = 0; c < dim; ++c)
+                force.local_element(cells.x[cell * cells.n_x + a] + c) += f[c] * shape.value(q, a);
+          }
+    }
+  } // namespace
+
   template <int dim>
   BodyForce<dim>::BodyForce(const Discretisation<dim>    &discretisation,
                             const double                  density,
@@ -48,24 +73,11 @@ namespace isochor
   template <int dim>
   void BodyForce<dim>::fill(const double load, Vector &force) const
   {
-    const CellTables<dim> &cells = discretisation.cells;
-    const auto quadrature        = cell_quadrature<dim>(cells.kind, discretisation.volume_degree());
-    const GeometryTable<dim> geometry(cells, quadrature.get_points());
-    std::vector<double>      shares; // [q * n_x + a]: w_q N_a
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      for (unsigned int a = 0; a < cells.n_x; ++a)
-        shares.push_back(quadrature.weight(q)
-                         * discretisation.x_shape.value(a, quadrature.point(q)));
-
-    for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          const double determinant = geometry.determinant(cell, q);
-          for (unsigned int a = 0; a < cells.n_x; ++a)
-            for (unsigned int c = 0; c < dim; ++c)
-              force.local_element(cells.x[cell * cells.n_x + a] + c)
-                  += load * weight[c] * shares[q * cells.n_x + a] * determinant;
-        }
+    add_volume_force(
+        discretisation,
+        discretisation.volume_degree(),
+        [&](const dealii::Point<dim> &) { return load * weight; },
+        force);
   }
 
   template <int dim>
@@ -82,29 +94,16 @@ namespace isochor
   template <int dim>
   void DistributedForce<dim>::fill(const double load, Vector &force) const
   {
-    const CellTables<dim> &cells = discretisation.cells;
-    const auto             quadrature
-        = cell_quadrature<dim>(cells.kind, std::min(2 * discretisation.x_shape.degree() + 1, 9u));
-    const GeometryTable<dim> geometry(cells, quadrature.get_points());
-    std::vector<double>      shares; // [q * n_x + a]: w_q N_a
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      for (unsigned int a = 0; a < cells.n_x; ++a)
-        shares.push_back(quadrature.weight(q)
-                         * discretisation.x_shape.value(a, quadrature.point(q)));
-
-    for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          const auto   position = geometry.position(cell, q);
-          const double dV       = geometry.determinant(cell, q); // per quadrature weight
+    add_volume_force(
+        discretisation,
+        std::min(2 * discretisation.x_shape.degree() + 1, 9u),
+        [&](const dealii::Point<dim> &position) {
+          dealii::Tensor<1, dim> f;
           for (unsigned int c = 0; c < dim; ++c)
-            {
-              const double f = load * dV * density[c].value(position, load);
-              for (unsigned int a = 0; a < cells.n_x; ++a)
-                force.local_element(cells.x[cell * cells.n_x + a] + c)
-                    += f * shares[q * cells.n_x + a];
-            }
-        }
+            f[c] = load * density[c].value(position, load);
+          return f;
+        },
+        force);
   }
 
   template <int dim>

@@ -34,14 +34,8 @@ namespace isochor
     , material(material)
     , quadrature(cell_quadrature<dim>(discretisation.cells.kind, quadrature_degree))
     , geometry(discretisation.cells, quadrature.get_points())
+    , shape(discretisation.x_shape, quadrature.get_points())
   {
-    const auto &shape = discretisation.x_shape;
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      for (unsigned int a = 0; a < shape.n_nodes(); ++a)
-        {
-          value.push_back(shape.value(a, quadrature.point(q)));
-          gradient.push_back(shape.gradient(a, quadrature.point(q)));
-        }
   }
 
   template <int dim>
@@ -78,8 +72,8 @@ namespace isochor
         {
           double error = -exact[c].value(at.position, load);
           for (unsigned int a = 0; a < cells.n_x; ++a)
-            error += value[at.q * cells.n_x + a]
-                     * state.local_element(cells.x[at.cell * cells.n_x + a] + c);
+            error
+                += shape.value(at.q, a) * state.local_element(cells.x[at.cell * cells.n_x + a] + c);
           squares += at.weight * error * error;
         }
     });
@@ -100,7 +94,7 @@ namespace isochor
           dealii::Tensor<1, dim> by_xi;
           for (unsigned int a = 0; a < cells.n_x; ++a)
             by_xi += state.local_element(cells.x[at.cell * cells.n_x + a] + c)
-                     * gradient[at.q * cells.n_x + a];
+                     * shape.gradient(at.q, a);
           for (unsigned int J = 0; J < dim; ++J)
             {
               double error = -derivative(exact[c], at.position, load, J, h);

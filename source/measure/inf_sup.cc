@@ -192,48 +192,38 @@ namespace isochor
       /// not change.
       double pressure_unit() const
       {
-        double size = 0;
-        for (std::size_t cell = 0; cell < discretisation.cells.n_owned; ++cell)
-          size += std::pow(discretisation.cells.determinant[cell], 1. / dim);
-        size = dealii::Utilities::MPI::sum(size, discretisation.communicator())
-               / double(discretisation.n_cells);
-        return 5. / size;
+        return 5. / discretisation.mean_cell_size;
       }
 
       void assemble(const VolumetricStrain strain, const double stabilisation, const Vector &state)
       {
         const CellTables<dim> &cells      = discretisation.cells;
-        const auto            &x_shape    = discretisation.x_shape;
-        const auto            &p_shape    = discretisation.p_shape;
         const auto             quadrature = cell_quadrature<dim>(
-            cells.kind, std::max(discretisation.quadrature_degree(), 2 * p_shape.degree()));
-        const GeometryTable<dim>                         geometry(cells, quadrature.get_points());
-        const double                                     unit = pressure_unit();
-        std::vector<std::vector<dealii::Tensor<1, dim>>> reference(quadrature.size());
-        std::vector<std::vector<double>>                 p_value(quadrature.size());
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            for (unsigned int a = 0; a < cells.n_x; ++a)
-              reference[q].push_back(x_shape.gradient(a, quadrature.point(q)));
-            for (unsigned int j = 0; j < cells.n_p; ++j)
-              p_value[q].push_back(unit * p_shape.value(j, quadrature.point(q)));
-          }
+            cells.kind,
+            std::max(discretisation.quadrature_degree(), 2 * discretisation.p_shape.degree()));
+        const GeometryTable<dim> geometry(cells, quadrature.get_points());
+        const ShapeTable<dim>    x_shape(discretisation.x_shape, quadrature.get_points());
+        const ShapeTable<dim>    p_shape(discretisation.p_shape, quadrature.get_points());
+        const double             unit = pressure_unit();
 
         BlockWriter<dim>                    to_saddle(cells, offsets, saddle);
         BlockWriter<dim>                    to_mass(cells, offsets, mass);
         std::vector<dealii::Tensor<1, dim>> gradient(cells.n_x);
+        std::vector<double>                 p_value(cells.n_p);
         for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
           {
             std::vector<double> M(cells.n_p * cells.n_p, 0.), m(cells.n_p, 0.);
             double              volume = 0;
             for (unsigned int q = 0; q < quadrature.size(); ++q)
               {
-                const auto             map = geometry.map(cell, q);
-                const double           dV  = map.determinant * quadrature.weight(q);
+                const auto   map = geometry.map(cell, q);
+                const double dV  = map.determinant * quadrature.weight(q);
+                for (unsigned int j = 0; j < cells.n_p; ++j)
+                  p_value[j] = unit * p_shape.value(q, j);
                 dealii::Tensor<2, dim> grad_u;
                 for (unsigned int a = 0; a < cells.n_x; ++a)
                   {
-                    gradient[a] = reference[q][a] * map.inverse;
+                    gradient[a] = x_shape.gradient(q, a) * map.inverse;
                     for (unsigned int i = 0; i < dim; ++i)
                       grad_u[i]
                           += state.local_element(cells.x[cell * cells.n_x + a] + i) * gradient[a];
@@ -249,7 +239,7 @@ namespace isochor
                     for (unsigned int j = 0; j < cells.n_p; ++j)
                       for (unsigned int i = 0; i < dim; ++i)
                         {
-                          const double B = dV * p_value[q][j] * normal[i];
+                          const double B = dV * p_value[j] * normal[i];
                           to_saddle.add(cell, a, i, cells.n_x + j, 0, B);
                           to_saddle.add(cell, cells.n_x + j, 0, a, i, B);
                         }
@@ -257,9 +247,9 @@ namespace isochor
                 volume += dV;
                 for (unsigned int j = 0; j < cells.n_p; ++j)
                   {
-                    m[j] += dV * p_value[q][j];
+                    m[j] += dV * p_value[j];
                     for (unsigned int k = 0; k < cells.n_p; ++k)
-                      M[j * cells.n_p + k] += dV * p_value[q][j] * p_value[q][k];
+                      M[j * cells.n_p + k] += dV * p_value[j] * p_value[k];
                   }
               }
             for (unsigned int j = 0; j < cells.n_p; ++j)

@@ -36,9 +36,7 @@ namespace isochor
                                        const std::size_t         cell,
                                        const dealii::Point<dim> &point)
     {
-      dealii::Point<dim> xi;
-      for (unsigned int v = 0; v < n_vertices(cells.kind, dim); ++v)
-        xi += reference_vertex<dim>(cells.kind, v) / n_vertices(cells.kind, dim);
+      auto xi = reference_centre<dim>(cells.kind);
       for (unsigned int iteration = 0; iteration < 20; ++iteration)
         {
           const dealii::Tensor<1, dim> step
@@ -225,6 +223,7 @@ namespace isochor
       {
         const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.volume_degree());
         const GeometryTable<dim> geometry(cells, quadrature.get_points());
+        const ShapeTable<dim>    shape(discretisation.x_shape, quadrature.get_points());
         for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
           for (unsigned int q = 0; q < quadrature.size(); ++q)
             {
@@ -232,7 +231,7 @@ namespace isochor
               measure += weight;
               for (unsigned int a = 0; a < cells.n_x; ++a)
                 for (unsigned int c = 0; c < dim; ++c)
-                  total[c] += weight * discretisation.x_shape.value(a, quadrature.point(q))
+                  total[c] += weight * shape.value(q, a)
                               * state.local_element(cells.x[cell * cells.n_x + a] + c);
             }
       }

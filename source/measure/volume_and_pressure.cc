@@ -15,12 +15,7 @@ namespace isochor
     const unsigned int       degree = cells.kind == CellKind::simplex ? dim * (k - 1) : dim * k - 1;
     const auto               quadrature = cell_quadrature<dim>(cells.kind, std::max(1u, degree));
     const GeometryTable<dim> geometry(cells, quadrature.get_points());
-
-    // gradients[q * n_x + a]
-    std::vector<dealii::Tensor<1, dim>> gradients;
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      for (unsigned int a = 0; a < cells.n_x; ++a)
-        gradients.push_back(shape.gradient(a, quadrature.point(q)));
+    const ShapeTable<dim>    table(shape, quadrature.get_points());
 
     double volume = 0;
     for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
@@ -29,8 +24,8 @@ namespace isochor
           dealii::Tensor<2, dim> map = geometry.map(cell, q).jacobian; // dx / dxi
           for (unsigned int a = 0; a < cells.n_x; ++a)
             for (unsigned int d = 0; d < dim; ++d)
-              map[d] += state.local_element(cells.x[cell * cells.n_x + a] + d)
-                        * gradients[q * cells.n_x + a];
+              map[d]
+                  += state.local_element(cells.x[cell * cells.n_x + a] + d) * table.gradient(q, a);
           volume += quadrature.weight(q) * dealii::determinant(map);
         }
     return dealii::Utilities::MPI::sum(volume, discretisation.communicator());
@@ -54,15 +49,10 @@ namespace isochor
               cells.kind,
               std::max(discretisation.quadrature_degree(), 2 * discretisation.p_shape.degree())))
         , geometry(cells, quadrature.get_points())
+        , p_table(discretisation.p_shape, quadrature.get_points())
+        , s_table(smooth_shape, quadrature.get_points())
         , average(discretisation.make_vector())
       {
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            for (unsigned int j = 0; j < cells.n_p; ++j)
-              p_value.push_back(discretisation.p_shape.value(j, quadrature.point(q)));
-            for (unsigned int j = 0; j < n_s; ++j)
-              s_value.push_back(smooth_shape.value(j, quadrature.point(q)));
-          }
       }
 
       /// Average the means of the cells around each node; returns the mean over the body and the
@@ -110,7 +100,7 @@ namespace isochor
       {
         double p = 0;
         for (unsigned int j = 0; j < cells.n_p; ++j)
-          p += p_value[q * cells.n_p + j] * state.local_element(cells.p[cell * cells.n_p + j]);
+          p += p_table.value(q, j) * state.local_element(cells.p[cell * cells.n_p + j]);
         return p;
       }
 
@@ -118,7 +108,7 @@ namespace isochor
       {
         double p = 0;
         for (unsigned int j = 0; j < n_s; ++j)
-          p += s_value[q * n_s + j] * average.local_element(place(cell, j));
+          p += s_table.value(q, j) * average.local_element(place(cell, j));
         return p;
       }
 
@@ -143,7 +133,7 @@ namespace isochor
       const unsigned int                               n_s;
       const dealii::Quadrature<dim>                    quadrature;
       const GeometryTable<dim>                         geometry;
-      std::vector<double>                              p_value, s_value;
+      const ShapeTable<dim>                            p_table, s_table;
       Vector                                           average;
     };
   } // namespace

@@ -37,15 +37,6 @@ namespace isochor
       map.determinant = cells.determinant[cell];
       return map;
     }
-
-    template <int dim>
-    dealii::Point<dim> centre(const CellKind kind)
-    {
-      dealii::Point<dim> xi;
-      for (unsigned int d = 0; d < dim; ++d)
-        xi[d] = kind == CellKind::simplex ? 1. / (dim + 1) : 0.5;
-      return xi;
-    }
   } // namespace
 
   template <int dim>
@@ -74,13 +65,8 @@ namespace isochor
   GeometryTable<dim>::GeometryTable(const CellTables<dim>                 &cells,
                                     const std::vector<dealii::Point<dim>> &points)
     : cells(cells)
+    , shape(*cells.geometry_shape, points)
   {
-    for (const auto &xi : points)
-      for (unsigned int i = 0; i < cells.n_g; ++i)
-        {
-          values.push_back(cells.geometry_shape->value(i, xi));
-          gradients.push_back(cells.geometry_shape->gradient(i, xi));
-        }
   }
 
   template <int dim>
@@ -90,8 +76,7 @@ namespace isochor
       return affine_map(cells, cell);
     PointMap<dim> map;
     for (unsigned int i = 0; i < cells.n_g; ++i)
-      add_product(
-          map.jacobian, cells.geometry[cell * cells.n_g + i], gradients[point * cells.n_g + i]);
+      add_product(map.jacobian, cells.geometry[cell * cells.n_g + i], shape.gradient(point, i));
     complete(map);
     return map;
   }
@@ -102,7 +87,7 @@ namespace isochor
   {
     dealii::Point<dim> position;
     for (unsigned int i = 0; i < cells.n_g; ++i)
-      position += values[point * cells.n_g + i] * cells.geometry[cell * cells.n_g + i];
+      position += shape.value(point, i) * cells.geometry[cell * cells.n_g + i];
     return position;
   }
 
@@ -129,7 +114,7 @@ namespace isochor
       {
         cells.is_affine.back() = 0;
         cells.all_affine       = false;
-        map                    = cells.map(cell, centre<dim>(cells.kind));
+        map                    = cells.map(cell, reference_centre<dim>(cells.kind));
       }
     else
       complete(map);

@@ -6,6 +6,7 @@
 #include <deal.II/grid/tria_iterator.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -245,6 +246,10 @@ namespace isochor
     n_pressures = p_field ? p_field->n_nodes() : 0;
     n_owned_displacements = dim * (x_field.begin(rank + 1) - x_field.begin(rank));
     n_cells               = dealii::Utilities::MPI::sum(GlobalIndex(cells.n_owned), communicator);
+    double cell_sizes     = 0;
+    for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
+      cell_sizes += std::pow(cells.determinant[cell], 1. / dim);
+    mean_cell_size = dealii::Utilities::MPI::sum(cell_sizes, communicator) / double(n_cells);
 
     dealii::IndexSet owned(n_unknowns()), relevant(n_unknowns());
     owned.add_range(first, last);

@@ -54,11 +54,8 @@ namespace isochor
     const auto    &geometry_shape = *discretisation.cells.geometry_shape;
     const auto     quadrature     = cell_quadrature<dim - 1>(kind, degree);
 
-    dealii::Point<dim> centre;
-    for (unsigned int v = 0; v < n_vertices(kind, dim); ++v)
-      centre += reference_vertex<dim>(kind, v) / n_vertices(kind, dim);
-
-    const auto &faces = reference_faces<dim>(kind);
+    const auto  centre = reference_centre<dim>(kind);
+    const auto &faces  = reference_faces<dim>(kind);
     for (unsigned int face = 0; face < faces.size(); ++face)
       {
         FaceTable<dim> table;

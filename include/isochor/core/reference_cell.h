@@ -43,6 +43,9 @@ namespace isochor
   template <int dim>
   dealii::Point<dim> reference_vertex(CellKind kind, unsigned int vertex);
 
+  template <int dim>
+  dealii::Point<dim> reference_centre(CellKind kind);
+
   /// The two vertices of each edge; in 2D the edges are the faces.
   template <int dim>
   const std::vector<std::array<unsigned int, 2>> &reference_edges(CellKind kind);

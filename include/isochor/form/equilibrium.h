@@ -82,6 +82,5 @@ namespace isochor
     bool                               is_linear_       = false;
     double                             volume_scale     = 0; ///< |int N_p|
     double                             stiffness_scale  = 0; ///< |diagonal of the tangent at rest|
-    double                             cell_size        = 0; ///< mean over the cells, m
   };
 } // namespace isochor

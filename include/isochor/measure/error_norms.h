@@ -61,11 +61,10 @@ namespace isochor
 
     double root_of_sum(double squares) const;
 
-    const Discretisation<dim>          &discretisation;
-    Material                            material;
-    dealii::Quadrature<dim>             quadrature;
-    GeometryTable<dim>                  geometry;
-    std::vector<double>                 value;    ///< [q * n_x + a]
-    std::vector<dealii::Tensor<1, dim>> gradient; ///< [q * n_x + a], d/d xi
+    const Discretisation<dim> &discretisation;
+    Material                   material;
+    dealii::Quadrature<dim>    quadrature;
+    GeometryTable<dim>         geometry;
+    ShapeTable<dim>            shape;
   };
 } // namespace isochor

@@ -3,9 +3,7 @@
 // What kernels read of the cells that this rank computes: indices of unknowns and geometry.
 
 #include <isochor/core/types.h>
-#include <isochor/element/shape_functions.h>
-
-#include <deal.II/base/tensor.h>
+#include <isochor/element/shape_table.h>
 
 namespace isochor
 {
@@ -84,9 +82,8 @@ namespace isochor
     dealii::Point<dim> position(std::size_t cell, unsigned int point) const;
 
   private:
-    const CellTables<dim>              &cells;
-    std::vector<double>                 values;    ///< [point * n_g + i]
-    std::vector<dealii::Tensor<1, dim>> gradients; ///< [point * n_g + i]
+    const CellTables<dim> &cells;
+    ShapeTable<dim>        shape;
   };
 
   /// Add the geometry of a cell whose nodes have been appended to cells.geometry.

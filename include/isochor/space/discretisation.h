@@ -73,6 +73,7 @@ namespace isochor
     GlobalIndex n_pressures           = 0; ///< over all ranks
     GlobalIndex n_cells               = 0; ///< over all ranks
     LocalIndex  n_owned_displacements = 0; ///< scalar unknowns; pressures follow in the vector
+    double      mean_cell_size        = 0; ///< of the d-th root of determinants, m
 
     GlobalIndex n_unknowns() const
     {
