@@ -29,73 +29,6 @@ namespace isochor
       nodes.push_back((1u << n_vertices(kind, dim)) - 1);
       return nodes;
     }
-
-    template <int dim>
-    std::vector<Point<dim>> reference_vertices(const CellKind kind)
-    {
-      std::vector<Point<dim>> vertices;
-      for (unsigned int v = 0; v < n_vertices(kind, dim); ++v)
-        vertices.push_back(reference_vertex<dim>(kind, v));
-      return vertices;
-    }
-
-    // Gradients of the barycentric coordinates: products of them are the simplex's shape functions.
-    template <int dim>
-    std::vector<Tensor<1, dim>>
-    simplex_gradients(const unsigned int order, const unsigned int n, const Point<dim> &x)
-    {
-      std::array<double, dim + 1>         lambda{1.};
-      std::array<Tensor<1, dim>, dim + 1> gradient;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lambda[d + 1] = x[d];
-          lambda[0] -= x[d];
-          gradient[d + 1][d] = 1;
-          gradient[0][d]     = -1;
-        }
-      std::vector<Tensor<1, dim>> gradients(n);
-      for (unsigned int v = 0; v <= dim; ++v)
-        gradients[v] = order == 1 ? gradient[v] : (4 * lambda[v] - 1) * gradient[v];
-      const auto &edges = reference_edges<dim>(CellKind::simplex);
-      for (unsigned int i = dim + 1; i < n; ++i)
-        {
-          const auto [a, b] = edges[i - dim - 1];
-          gradients[i]      = 4 * (lambda[a] * gradient[b] + lambda[b] * gradient[a]);
-        }
-      return gradients;
-    }
-
-    // Value and derivative at x of the polynomial of the given order that is 1 at @p node and 0 at
-    // the other nodes 0, 1/2 (order 2), 1.
-    std::array<double, 2> lagrange(const unsigned int order, const double node, const double x)
-    {
-      if (order == 1)
-        return node == 0 ? std::array{1 - x, -1.} : std::array{x, 1.};
-      if (node == 0)
-        return {(1 - x) * (1 - 2 * x), 4 * x - 3};
-      if (node == 1)
-        return {x * (2 * x - 1), 4 * x - 1};
-      return {4 * x * (1 - x), 4 - 8 * x};
-    }
-
-    template <int dim>
-    std::vector<Tensor<1, dim>>
-    hypercube_gradients(const unsigned int order, const unsigned int n, const Point<dim> &x)
-    {
-      const auto                  vertices = reference_vertices<dim>(CellKind::hypercube);
-      std::vector<Tensor<1, dim>> gradients(n);
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          const Point<dim> node = middle(node_vertices<dim>(CellKind::hypercube)[i], vertices);
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              gradients[i][d] = 1;
-              for (unsigned int e = 0; e < dim; ++e)
-                gradients[i][d] *= lagrange(order, node[e], x[e])[d == e ? 1 : 0];
-            }
-        }
-      return gradients;
-    }
   } // namespace
 
   template <int dim>
@@ -109,7 +42,7 @@ namespace isochor
   template <int dim>
   unsigned int n_geometry_nodes(const CellKind kind, const unsigned int order)
   {
-    return order == 1 ? n_vertices(kind, dim) : node_vertices<dim>(kind).size();
+    return make_shape_functions<dim>(kind, {Family::lagrange, order})->n_nodes();
   }
 
   template <int dim>
@@ -166,23 +99,17 @@ namespace isochor
   CellMap<dim>::CellMap(const CellKind                 kind,
                         const unsigned int             order,
                         const std::vector<Point<dim>> &points)
-    : n_nodes(n_geometry_nodes<dim>(kind, order))
+    : shape(*make_shape_functions<dim>(kind, {Family::lagrange, order}), points)
   {
-    for (const Point<dim> &x : points)
-      {
-        const auto at_x = kind == CellKind::simplex ? simplex_gradients<dim>(order, n_nodes, x)
-                                                    : hypercube_gradients<dim>(order, n_nodes, x);
-        gradients.insert(gradients.end(), at_x.begin(), at_x.end());
-      }
   }
 
   template <int dim>
   double CellMap<dim>::determinant(const unsigned int q, const std::vector<Point<dim>> &nodes) const
   {
     Tensor<2, dim> jacobian;
-    for (unsigned int i = 0; i < n_nodes; ++i)
+    for (unsigned int i = 0; i < shape.n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        jacobian[d] += nodes[i][d] * gradients[q * n_nodes + i];
+        jacobian[d] += nodes[i][d] * shape.gradient(q, i);
     return dealii::determinant(jacobian);
   }
 

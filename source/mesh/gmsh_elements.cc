@@ -35,12 +35,10 @@ namespace isochor
   std::vector<unsigned int>
   node_order(const ElementType &type, const CellKind kind, const unsigned int order)
   {
-    const unsigned int n = n_geometry_nodes<dim>(kind, order);
+    const auto         shape = make_shape_functions<dim>(kind, {Family::lagrange, order});
+    const unsigned int n     = shape->n_nodes();
     if (type.n_nodes != static_cast<int>(n))
       return {};
-    std::vector<dealii::Point<dim>> vertices;
-    for (unsigned int v = 0; v < n_vertices(kind, dim); ++v)
-      vertices.push_back(reference_vertex<dim>(kind, v));
     const std::size_t         stride = type.coordinates.size() / n;
     std::vector<unsigned int> places;
     for (unsigned int i = 0; i < n; ++i)
@@ -50,7 +48,7 @@ namespace isochor
           for (unsigned int d = 0; d < dim; ++d)
             place[d] = kind == CellKind::simplex ? type.coordinates[j * stride + d]
                                                  : (type.coordinates[j * stride + d] + 1) / 2;
-          if (place.distance(middle(node_vertices<dim>(kind)[i], vertices)) < 1e-6)
+          if (place.distance(shape->node(i)) < 1e-6)
             places.push_back(j);
         }
     if (places.size() != n)

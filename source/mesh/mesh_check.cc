@@ -57,13 +57,10 @@ namespace isochor
           if (face.size() == 4)
             std::swap(face[2], face[3]);
           std::array<dealii::Point<dim>, dim> corner;
-          dealii::Point<dim>                  centre;
           for (unsigned int i = 0; i < dim; ++i)
             corner[i] = reference_vertex<dim>(kind, face[i]);
-          for (unsigned int v = 0; v < n_vertices(kind, dim); ++v)
-            centre += reference_vertex<dim>(kind, v) / n_vertices(kind, dim);
           dealii::Tensor<2, dim> frame;
-          frame[0] = corner[0] - centre;
+          frame[0] = corner[0] - reference_centre<dim>(kind);
           for (unsigned int i = 1; i < dim; ++i)
             frame[i] = corner[i] - corner[0];
           if (determinant(frame) < 0)
@@ -132,12 +129,10 @@ namespace isochor
     template <int dim>
     CellMap<dim> sampled_map(const CellKind kind, const unsigned int order)
     {
-      std::vector<dealii::Point<dim>> vertices;
-      for (unsigned int v = 0; v < n_vertices(kind, dim); ++v)
-        vertices.push_back(reference_vertex<dim>(kind, v));
+      const auto quadratic = make_shape_functions<dim>(kind, {Family::lagrange, 2});
       std::vector<dealii::Point<dim>> points;
-      for (const unsigned int bits : node_vertices<dim>(kind))
-        points.push_back(middle(bits, vertices));
+      for (unsigned int i = 0; i < quadratic->n_nodes(); ++i)
+        points.push_back(quadratic->node(i));
       const auto inside = kind == CellKind::simplex
                               ? dealii::Quadrature<dim>(dealii::QGaussSimplex<dim>(3))
                               : dealii::Quadrature<dim>(dealii::QGauss<dim>(3));

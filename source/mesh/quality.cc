@@ -1,6 +1,5 @@
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/mesh/quality.h>
-
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,14 +116,13 @@ namespace isochor
       return volume;
     }
 
-    // For Jacobian determinants of maps of order k: degree dim (k - 1) on simplices, so 3 at most;
-    // dim k - 1 in each direction on hypercubes.
+    // For Jacobian determinants of maps of order k: degree dim (k - 1) on simplices, dim k - 1 in each
+    // direction on hypercubes.
     template <int dim>
     dealii::Quadrature<dim> volume_rule(const CellKind kind, const unsigned int order)
     {
-      if (kind == CellKind::simplex)
-        return dealii::QGaussSimplex<dim>(2);
-      return dealii::QGauss<dim>((dim * order + 1) / 2);
+      return cell_quadrature<dim>(
+          kind, kind == CellKind::simplex ? std::max(1u, dim * (order - 1)) : dim * order - 1);
     }
 
     template <int dim>

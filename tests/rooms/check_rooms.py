@@ -9,7 +9,7 @@ import re
 import sys
 from pathlib import Path
 
-ROOMS = ("core material mesh element algebra scene space form solver march measure output "
+ROOMS = ("core material element mesh algebra scene space form solver march measure output "
          "run").split()
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<(isochor/[^>]+)>)')
 

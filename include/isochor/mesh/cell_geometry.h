@@ -2,6 +2,7 @@
 
 // The polynomial map from the reference cell to a cell: its nodes, and its Jacobian determinant.
 
+#include <isochor/element/shape_table.h>
 #include <isochor/mesh/raw_mesh.h>
 
 namespace isochor
@@ -44,14 +45,13 @@ namespace isochor
 
     unsigned int n_points() const
     {
-      return gradients.size() / n_nodes;
+      return shape.n_points();
     }
     /// Jacobian determinant at point @p q for a cell with these nodes: volume per volume of the
     /// reference cell, negative where the cell is turned inside out.
     double determinant(unsigned int q, const std::vector<dealii::Point<dim>> &nodes) const;
 
   private:
-    unsigned int                        n_nodes;
-    std::vector<dealii::Tensor<1, dim>> gradients; ///< [q * n_nodes + node]
+    ShapeTable<dim> shape;
   };
 } // namespace isochor
