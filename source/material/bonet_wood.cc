@@ -28,25 +28,12 @@ namespace isochor
       return;
 
     const Batch a = -2. / 3. * m, b = m * third_I1;
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i)
-#pragma GCC unroll 3
-      for (int J = 0; J < 3; ++J)
-        {
-          const Batch aD = a * D[3 * i + J], aH = a * H[3 * i + J];
-#pragma GCC unroll 3
-          for (int k = 0; k < 3; ++k)
-            {
-              const Batch bH = b * H[3 * k + J];
-#pragma GCC unroll 3
-              for (int L = 0; L < 3; ++L)
-                {
-                  Batch entry = aD * H[3 * k + L] + aH * F[3 * k + L] + bH * H[3 * i + L];
-                  if (i == k && J == L)
-                    entry += m;
-                  response.A[9 * (3 * i + J) + 3 * k + L] = entry;
-                }
-            }
-        }
+    fill_tangent(
+        [&](const int i, const int J, const int k, const int L) {
+          const Batch entry = a * D[3 * i + J] * H[3 * k + L] + a * H[3 * i + J] * F[3 * k + L]
+                              + b * H[3 * k + J] * H[3 * i + L];
+          return i == k && J == L ? entry + m : entry;
+        },
+        response.A);
   }
 } // namespace isochor

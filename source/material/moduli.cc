@@ -81,32 +81,21 @@ namespace isochor
 
   Moduli moduli(const MaterialParameters &material)
   {
-    return moduli(material.youngs_modulus,
-                  material.poisson_ratio,
-                  material.energy,
-                  material.kappa,
-                  material.mooney_rivlin_ratio);
-  }
-
-  Moduli moduli(const double          youngs_modulus,
-                const double          poisson_ratio,
-                const Energy          energy,
-                const KappaConvention convention,
-                const double          mooney_rivlin_ratio)
-  {
+    const double E = material.youngs_modulus, nu = material.poisson_ratio;
     // At nu = 1/2 both denominators are exactly 0 and both moduli infinite.
-    const double mu   = youngs_modulus / (2. * (1. + poisson_ratio));
-    const double bulk = youngs_modulus / (3. * (1. - 2. * poisson_ratio));
-    const double lambda
-        = youngs_modulus * poisson_ratio / ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
-    switch (convention)
+    const double mu     = E / (2. * (1. + nu));
+    const double bulk   = E / (3. * (1. - 2. * nu));
+    const double lambda = E * nu / ((1. + nu) * (1. - 2. * nu));
+    switch (material.kappa)
       {
         case KappaConvention::lambda:
-          return {mu, lambda, mooney_rivlin_ratio};
+          return {mu, lambda, material.mooney_rivlin_ratio};
         case KappaConvention::bulk:
-          return {mu, bulk, mooney_rivlin_ratio};
+          return {mu, bulk, material.mooney_rivlin_ratio};
         case KappaConvention::consistent:
-          return {mu, consistent_kappa(energy, mu, lambda, bulk), mooney_rivlin_ratio};
+          return {mu,
+                  consistent_kappa(material.energy, mu, lambda, bulk),
+                  material.mooney_rivlin_ratio};
       }
     throw std::logic_error("moduli: a convention that is not known");
   }

@@ -38,6 +38,7 @@ namespace isochor
     if (!with_tangent)
       return;
 
+    // Products taken out of the loops by hand: with fill_tangent it is 15 % slower.
     const Batch crossed = (a_1 + 2. * a_2) * (1. / 3.), diagonal = m_1 + m_2 * I1;
     Batch       X[9], b[9];
     left_square(F, b);

@@ -22,19 +22,11 @@ namespace isochor
     if (!with_tangent)
       return;
 
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i)
-#pragma GCC unroll 3
-      for (int J = 0; J < 3; ++J)
-#pragma GCC unroll 3
-        for (int k = 0; k < 3; ++k)
-#pragma GCC unroll 3
-          for (int L = 0; L < 3; ++L)
-            {
-              Batch entry = mu * H[3 * i + L] * H[3 * k + J];
-              if (i == k && J == L)
-                entry += mu;
-              response.A[9 * (3 * i + J) + 3 * k + L] = entry;
-            }
+    fill_tangent(
+        [&](const int i, const int J, const int k, const int L) {
+          const Batch entry = mu * H[3 * i + L] * H[3 * k + J];
+          return i == k && J == L ? entry + mu : entry;
+        },
+        response.A);
   }
 } // namespace isochor

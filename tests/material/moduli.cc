@@ -112,7 +112,7 @@ namespace
         if (at_rest)
           for (const auto convention : {KappaConvention::lambda, KappaConvention::bulk})
             {
-              const Moduli m     = moduli(youngs_modulus, 0.3, energy, convention);
+              const Moduli m     = moduli({youngs_modulus, 0.3, energy, {}, convention});
               const auto   shown = bar(energy, usual_volumetric_strain(energy), m);
               const auto   told  = small_strain(energy, m);
               out() << "  nu = 0.3 with kappa = " << kappa_convention_names.name(convention)
@@ -155,18 +155,19 @@ int main(int argc, char **argv)
   for (const auto convention :
        {KappaConvention::consistent, KappaConvention::lambda, KappaConvention::bulk})
     {
-      const Moduli m = moduli(youngs_modulus, .5, Energy::neo_hookean, convention);
+      const Moduli m = moduli({youngs_modulus, .5, Energy::neo_hookean, {}, convention});
       out() << "nu = 0.5, " << kappa_convention_names.name(convention) << ": mu " << m.mu
             << ", kappa " << m.kappa << ", compliance " << m.compliance() << "\n";
     }
   out() << "nu = 0.5, Mooney: compliance "
-        << moduli(1., .5, Energy::mooney, KappaConvention::consistent).compliance() << "\n";
+        << moduli({1., .5, Energy::mooney, {}, KappaConvention::consistent}).compliance() << "\n";
   out() << "E = 210e9, nu = 0.25: mu "
-        << moduli(210e9, .25, Energy::neo_hookean, KappaConvention::consistent).mu << ", lambda "
-        << moduli(210e9, .25, Energy::neo_hookean, KappaConvention::consistent).kappa
+        << moduli({210e9, .25, Energy::neo_hookean, {}, KappaConvention::consistent}).mu
+        << ", lambda "
+        << moduli({210e9, .25, Energy::neo_hookean, {}, KappaConvention::consistent}).kappa
         << ", lambda + mu "
-        << moduli(210e9, .25, Energy::stable_neo_hookean, KappaConvention::consistent).kappa
-        << ", K " << moduli(210e9, .25, Energy::bonet_wood, KappaConvention::consistent).kappa
+        << moduli({210e9, .25, Energy::stable_neo_hookean, {}, KappaConvention::consistent}).kappa
+        << ", K " << moduli({210e9, .25, Energy::bonet_wood, {}, KappaConvention::consistent}).kappa
         << "\n";
 
   out() << "Refused\n";
@@ -174,7 +175,7 @@ int main(int argc, char **argv)
        {Energy::mooney, Energy::simplified_bonet_wood, Energy::linear_as_printed})
     try
       {
-        moduli(1., .3, energy, KappaConvention::consistent);
+        moduli({1., .3, energy, {}, KappaConvention::consistent});
         out() << "  not refused\n";
       }
     catch (const UserError &error)

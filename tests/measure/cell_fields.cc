@@ -82,8 +82,7 @@ namespace
     Vector state = discretisation.make_vector();
     testing::interpolate(discretisation, displacement_field, pressure_field<dim>, state);
 
-    const Moduli m
-        = moduli(material.youngs_modulus, material.poisson_ratio, material.energy, material.kappa);
+    const Moduli m   = moduli(material);
     const double phi = material.volumetric_strain == VolumetricStrain::linear ? J - 1 : std::log(J);
     dealii::Tensor<2, 3> sigma = F * transpose(F);
     sigma *= material.energy == Energy::neo_hookean ? m.mu / J : m.mu * std::pow(J, -5. / 3);

@@ -78,7 +78,7 @@ namespace
       {
         const auto   stretch = formulas<dim>({"load*x", "0", "0"});
         const double kappa
-            = moduli(material.youngs_modulus, 0.3, material.energy, material.kappa).kappa;
+            = moduli({material.youngs_modulus, 0.3, material.energy, {}, material.kappa}).kappa;
         const Vector stretched = interpolated(stretch);
         out() << ", kappa (J - 1) "
               << below(norms.pressure_l2(stretched,

@@ -87,11 +87,6 @@ namespace isochor
   /// The numbers are in range, which the caller has checked. Throws UserError if "consistent" is
   /// asked of an energy with which no kappa is: (29) and (31) below nu = 0.5, (28) as printed.
   Moduli moduli(const MaterialParameters &material);
-  Moduli moduli(double          youngs_modulus,
-                double          poisson_ratio,
-                Energy          energy,
-                KappaConvention convention,
-                double          mooney_rivlin_ratio = 0.);
 
   /// What a bar stretched a little shows.
   struct SmallStrain
