@@ -6,6 +6,7 @@ Seconds, memory and counts of linear algebra belong to the machine.
 """
 
 import csv
+import math
 import re
 from collections import namedtuple
 
@@ -69,6 +70,15 @@ def compare(study, baseline):
 Published = namedtuple("Published", "settings column expected found deviation tolerance")
 
 
+def relative_deviation(found, expected):
+    """Of a zero, which a count may be, anything else is infinitely far."""
+    if found is None:
+        return None
+    if expected == 0:
+        return 0. if found == 0 else math.inf
+    return found / expected - 1
+
+
 def against_published(study, file):
     """The entries of FILE, a table with columns of settings, of figures, and "tolerance"
     (relative); found and deviation are None if the study has no such run that converged."""
@@ -91,8 +101,7 @@ def against_published(study, file):
             if expected is None:
                 continue
             found = number(runs[0][column]) if runs else None
-            deviation = (None if found is None else found / expected - 1 if expected else
-                         0. if found == 0 else float("inf"))
             entries.append(Published({n: row[n] for n in settings}, column, expected, found,
-                                     deviation, float(row["tolerance"])))
+                                     relative_deviation(found, expected),
+                                     float(row["tolerance"])))
     return entries
