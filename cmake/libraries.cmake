@@ -38,8 +38,9 @@ list(APPEND ISOCHOR_FOUND "deal.II ${DEAL_II_PACKAGE_VERSION}: ${dealii_library}
 
 find_path(MUMPS_INCLUDE_DIR dmumps_c.h)
 find_library(DMUMPS_LIBRARY dmumps)
+find_library(SMUMPS_LIBRARY smumps)
 find_library(MUMPS_COMMON_LIBRARY mumps_common)
-require(MUMPS libmumps-dev MUMPS_INCLUDE_DIR DMUMPS_LIBRARY MUMPS_COMMON_LIBRARY)
+require(MUMPS libmumps-dev MUMPS_INCLUDE_DIR DMUMPS_LIBRARY SMUMPS_LIBRARY MUMPS_COMMON_LIBRARY)
 read_version(version ${MUMPS_INCLUDE_DIR}/dmumps_c.h "MUMPS_VERSION \"([0-9.]+)\"")
 list(APPEND ISOCHOR_FOUND "MUMPS ${version}: ${DMUMPS_LIBRARY}")
 
@@ -121,5 +122,6 @@ list(REMOVE_DUPLICATES dealii_libraries)
 target_link_options(isochor_libraries INTERFACE
   -Wl,--as-needed -Wl,--unresolved-symbols=ignore-in-shared-libs)
 target_link_libraries(isochor_libraries INTERFACE
-  ${dealii_library} ${dealii_libraries} ${DMUMPS_LIBRARY} ${MUMPS_COMMON_LIBRARY} ${METIS_LIBRARY}
+  ${dealii_library} ${dealii_libraries} ${DMUMPS_LIBRARY} ${SMUMPS_LIBRARY}
+  ${MUMPS_COMMON_LIBRARY} ${METIS_LIBRARY}
   ${UMFPACK_LIBRARY} ${GMSH_LIBRARY} CLI11::CLI11)

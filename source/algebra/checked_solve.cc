@@ -73,7 +73,8 @@ namespace isochor
       x = 0.;
     // The residual of the iteration is an estimate, hence a little further than needed.
     dealii::SolverControl        control(max_iterations, .9 * tolerance * norm_b, false, false);
-    dealii::SolverFGMRES<Vector> fgmres(control);
+    dealii::SolverFGMRES<Vector> fgmres(
+        control, dealii::SolverFGMRES<Vector>::AdditionalData(max_iterations));
     try
       {
         fgmres.solve(matrix, x, b, Preconditioner{factors});

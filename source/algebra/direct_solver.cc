@@ -3,15 +3,17 @@
 
 namespace isochor
 {
-  std::unique_ptr<DirectSolver> make_direct_solver(const LinearSolver kind, MPI_Comm communicator)
+  std::unique_ptr<DirectSolver> make_direct_solver(const DirectKind kind, MPI_Comm communicator)
   {
     switch (kind)
       {
-        case LinearSolver::mumps:
-          return std::make_unique<Mumps>(communicator);
-        case LinearSolver::umfpack:
+        case DirectKind::mumps:
+          return std::make_unique<Mumps<double>>(communicator);
+        case DirectKind::single_mumps:
+          return std::make_unique<Mumps<float>>(communicator);
+        case DirectKind::umfpack:
           return std::make_unique<Umfpack>(communicator);
       }
-    throw std::logic_error("a linear solver that cannot be made");
+    throw std::logic_error("a direct solver that cannot be made");
   }
 } // namespace isochor

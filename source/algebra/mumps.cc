@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace isochor
 {
@@ -15,17 +16,30 @@ namespace isochor
     /// A pivot below this times the largest entry of the scaled matrix is taken for zero. Measured:
     /// a free body's rigid modes leave 1e-14 to 1e-10, so some may go uncounted; the smallest pivot
     /// of a clamped beam is above 1e-5 at slenderness 100 and above 1e-8 at 400.
-    constexpr double null_pivot_threshold = 1e-12;
+    /// In single precision rounding alone makes pivots of 1e-7.
+    template <typename number>
+    constexpr number null_pivot_threshold = std::is_same_v<number, double> ? 1e-12 : 1e-6;
     constexpr int    max_enlargements     = 6;
 
     // MUMPS' documentation numbers the entries of its control arrays from 1.
-    int &icntl(DMUMPS_STRUC_C &mumps, const int k)
+    template <typename Struct>
+    auto &icntl(Struct &mumps, const int k)
     {
       return mumps.icntl[k - 1];
     }
-    int infog(const DMUMPS_STRUC_C &mumps, const int k)
+    template <typename Struct>
+    int infog(const Struct &mumps, const int k)
     {
       return mumps.infog[k - 1];
+    }
+
+    void call_mumps(DMUMPS_STRUC_C &mumps)
+    {
+      dmumps_c(&mumps);
+    }
+    void call_mumps(SMUMPS_STRUC_C &mumps)
+    {
+      smumps_c(&mumps);
     }
 
     bool workspace_too_small(const int error)
@@ -34,7 +48,8 @@ namespace isochor
              || error == -19 || error == -20;
     }
 
-    std::string in_words(const DMUMPS_STRUC_C &mumps)
+    template <typename Struct>
+    std::string in_words(const Struct &mumps)
     {
       const int   error = infog(mumps, 1);
       std::string text;
@@ -51,14 +66,15 @@ namespace isochor
     }
   } // namespace
 
-  Mumps::Mumps(MPI_Comm communicator)
+  template <typename number>
+  Mumps<number>::Mumps(MPI_Comm communicator)
     : communicator(communicator)
   {
     mumps.sym          = 2;
     mumps.par          = 1;
     mumps.comm_fortran = MPI_Comm_c2f(communicator);
     mumps.job          = job_initialise;
-    dmumps_c(&mumps);
+    call_mumps(mumps);
     if (infog(mumps, 1) < 0)
       throw std::runtime_error("MUMPS cannot start: " + in_words(mumps));
 
@@ -70,12 +86,15 @@ namespace isochor
     icntl(mumps, 13)  = 1;  // no ScaLAPACK at the root: it would not count negative pivots
     icntl(mumps, 14)  = 30; // per cent more workspace than predicted, for delayed pivots
     icntl(mumps, 18)  = 3;  // each rank gives its entries
+    icntl(mumps, 20)  = 10; // and its right-hand sides
+    icntl(mumps, 21)  = 1;  // solutions stay where they are computed
     icntl(mumps, 24)  = 1;  // detect null pivots
     icntl(mumps, 28)  = 1;  // sequential analysis
-    mumps.cntl[3 - 1] = null_pivot_threshold;
+    mumps.cntl[3 - 1] = null_pivot_threshold<number>;
   }
 
-  Mumps::~Mumps()
+  template <typename number>
+  Mumps<number>::~Mumps()
   {
     int finalised = 0;
     MPI_Finalized(&finalised);
@@ -83,13 +102,15 @@ namespace isochor
       call(job_end);
   }
 
-  void Mumps::call(const int job)
+  template <typename number>
+  void Mumps<number>::call(const int job)
   {
     mumps.job = job;
-    dmumps_c(&mumps);
+    call_mumps(mumps);
   }
 
-  void Mumps::set_structure(const SparseMatrix &matrix)
+  template <typename number>
+  void Mumps<number>::set_structure(const SparseMatrix &matrix)
   {
     const auto       &partitioner = *matrix.partitioner();
     const std::size_t n_owned     = matrix.n_rows();
@@ -135,31 +156,37 @@ namespace isochor
     mumps.a_loc   = values.data();
   }
 
-  void Mumps::set_values(const SparseMatrix &matrix)
+  template <typename number>
+  void Mumps<number>::set_values(const SparseMatrix &matrix)
   {
     const double *source = matrix.values().data();
-    double       *target = values.data();
+    number       *target = values.data();
     for (const auto &[one, other] : pairs)
-      *target++ = .5 * (source[one] + source[other]);
+      *target++ = number(.5 * (source[one] + source[other]));
     for (const std::size_t k : halves)
-      *target++ = .5 * source[k];
+      *target++ = number(.5 * source[k]);
   }
 
-  void Mumps::analyse(const SparseMatrix             &matrix,
-                      const std::vector<GlobalIndex> &node_of_row,
-                      const GlobalIndex               n_nodes)
+  template <typename number>
+  void Mumps<number>::analyse(const SparseMatrix             &matrix,
+                              const std::vector<GlobalIndex> &node_of_row,
+                              const GlobalIndex               n_nodes)
   {
     AssertDimension(node_of_row.size(), matrix.n_rows());
     factored = false;
     if (matrix.partitioner()->size() >= std::size_t(std::numeric_limits<int>::max()))
       throw std::runtime_error("too many unknowns for MUMPS' 32-bit indices");
 
-    const int mine = matrix.n_rows();
-    counts         = dealii::Utilities::MPI::all_gather(communicator, mine);
-    offsets        = dealii::Utilities::MPI::all_gather(
-        communicator, static_cast<int>(matrix.partitioner()->local_range().first));
+    partitioner = matrix.partitioner();
+    owned_rows.resize(matrix.n_rows());
+    std::iota(owned_rows.begin(), owned_rows.end(), int(partitioner->local_range().first) + 1);
+    rhs_part.resize(std::max<std::size_t>(owned_rows.size(), 1));
+    mumps.nrhs         = 1;
+    mumps.nloc_rhs     = owned_rows.size();
+    mumps.lrhs_loc     = rhs_part.size();
+    mumps.irhs_loc     = owned_rows.data();
+    mumps.rhs_loc      = rhs_part.data();
     const bool is_root = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-    dense.resize(is_root ? matrix.partitioner()->size() : 0);
 
     place = nested_dissection(matrix, node_of_row, n_nodes);
     for (int &p : place)
@@ -172,10 +199,18 @@ namespace isochor
       throw std::runtime_error("analysis of the sparsity pattern failed: " + in_words(mumps));
   }
 
-  Factorisation Mumps::factor(const SparseMatrix &matrix)
+  template <typename number>
+  double Mumps<number>::predicted_megabytes() const
+  {
+    return infog(mumps, 17);
+  }
+
+  template <typename number>
+  Factorisation Mumps<number>::factor(const SparseMatrix &matrix)
   {
     AssertDimension(mumps.n, int(matrix.partitioner()->size()));
     factored = false;
+    solution_rows.clear();
     set_values(matrix);
 
     Factorisation result;
@@ -211,35 +246,65 @@ namespace isochor
     return result;
   }
 
-  void Mumps::solve(Vector &solution, const Vector &rhs)
+  template <typename number>
+  void Mumps<number>::solve(Vector &solution, const Vector &rhs)
   {
     if (!factored)
       throw std::logic_error("MUMPS: solve without a successful factorisation");
-    const int n_owned = rhs.locally_owned_size();
-    MPI_Gatherv(rhs.begin(),
-                n_owned,
-                MPI_DOUBLE,
-                dense.data(),
-                counts.data(),
-                offsets.data(),
-                MPI_DOUBLE,
-                0,
-                communicator);
-    mumps.rhs  = dense.data();
-    mumps.nrhs = 1;
-    mumps.lrhs = mumps.n;
+    // A float holds 1e-38 to 1e38: the size of the right-hand side must not matter.
+    double size = 1.;
+    if constexpr (std::is_same_v<number, float>)
+      {
+        size = rhs.linfty_norm();
+        if (!(size > 0.) || !std::isfinite(size))
+          size = 1.;
+      }
+    for (std::size_t i = 0; i < owned_rows.size(); ++i)
+      rhs_part[i] = number(rhs.local_element(i) / size);
+
+    const bool is_first = solution_rows.empty();
+    if (is_first)
+      {
+        solution_rows.resize(std::max(1, mumps.info[23 - 1]));
+        solution_part.resize(solution_rows.size());
+        mumps.lsol_loc = solution_rows.size();
+        mumps.isol_loc = solution_rows.data();
+        mumps.sol_loc  = solution_part.data();
+      }
     call(job_solve);
     if (infog(mumps, 1) < 0)
       throw std::runtime_error("solution with the factors failed: " + in_words(mumps));
+    if (is_first)
+      locate_solution();
+
+    scattered = 0.;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      scattered.local_element(places[k]) = solution_part[k];
+    scattered.compress(dealii::VectorOperation::add);
     solution.zero_out_ghost_values();
-    MPI_Scatterv(dense.data(),
-                 counts.data(),
-                 offsets.data(),
-                 MPI_DOUBLE,
-                 solution.begin(),
-                 n_owned,
-                 MPI_DOUBLE,
-                 0,
-                 communicator);
+    for (std::size_t i = 0; i < owned_rows.size(); ++i)
+      solution.local_element(i) = size * scattered.local_element(i);
   }
+
+  template <typename number>
+  void Mumps<number>::locate_solution()
+  {
+    const std::size_t        n = mumps.info[23 - 1];
+    std::vector<GlobalIndex> foreign;
+    for (std::size_t k = 0; k < n; ++k)
+      if (const GlobalIndex row = solution_rows[k] - 1; !partitioner->in_local_range(row))
+        foreign.push_back(row);
+    dealii::IndexSet ghosts(partitioner->size());
+    std::sort(foreign.begin(), foreign.end());
+    ghosts.add_indices(foreign.begin(), foreign.end());
+    const auto places_of = std::make_shared<const SparseMatrix::Partitioner>(
+        partitioner->locally_owned_range(), ghosts, communicator);
+    scattered.reinit(places_of);
+    places.resize(n);
+    for (std::size_t k = 0; k < n; ++k)
+      places[k] = places_of->global_to_local(solution_rows[k] - 1);
+  }
+
+  template class Mumps<double>;
+  template class Mumps<float>;
 } // namespace isochor

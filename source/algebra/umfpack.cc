@@ -1,4 +1,5 @@
 #include <isochor/algebra/umfpack.h>
+#include <isochor/core/error.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -41,8 +42,7 @@ namespace isochor
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
     if (n_ranks > 1)
       throw UserError("UMFPACK works on one MPI rank only, this run has " + std::to_string(n_ranks)
-                      + ": choose the linear solver "
-                      + linear_solver_names.name(LinearSolver::mumps) + " or run without mpirun");
+                      + ": choose MUMPS or run without mpirun");
     umfpack_dl_defaults(control.data());
     control[UMFPACK_SCALE]  = UMFPACK_SCALE_NONE; // ours is symmetric
     control[UMFPACK_IRSTEP] = 0;                  // checked_solve refines with the true matrix

@@ -56,9 +56,10 @@ namespace isochor
         size.gap = largest <= 1e-13 * (x.linfty_norm() + largest) ? 0. : largest;
         return size;
       };
-      problem.correction = [&, load](const Vector &x, const Vector &residual, Vector &step) {
-        return tangent_solver.correction(x, load, residual, step);
-      };
+      problem.correction =
+          [&, load](const Vector &x, const Vector &residual, const double tolerance, Vector &step) {
+            return tangent_solver.correction(x, load, residual, tolerance, step);
+          };
       problem.accepted = [&](unsigned int, const NewtonProblem::Size &, double) {
         return callbacks.interrupted();
       };
@@ -92,12 +93,17 @@ namespace isochor
   template <int dim>
   MarchReport march_quasi_static(const Equilibrium<dim> &equilibrium,
                                  TangentSolver<dim>     &tangent_solver,
-                                 const NewtonOptions    &newton_options,
+                                 const NewtonOptions    &asked_newton_options,
                                  const SteppingOptions  &stepping,
                                  const MarchCallbacks   &callbacks,
                                  Stopwatch              &stopwatch,
                                  Vector                 &state)
   {
+    // A linear problem is to take one iteration.
+    NewtonOptions newton_options = asked_newton_options;
+    if (equilibrium.is_linear())
+      newton_options.largest_linear_tolerance = 0.;
+
     MarchReport  report;
     const double largest_step = 1. / stepping.load_steps;
     double       step         = largest_step;

@@ -269,7 +269,7 @@ namespace isochor
       }
 
       const Discretisation<dim> &discretisation;
-      Mumps                      solver;
+      Mumps<double> solver;
       SparseMatrix               saddle; ///< [A B^T; B -S]
       CellOffsets                offsets;
       SparseMatrix               mass; ///< M in the pressure block

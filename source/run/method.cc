@@ -108,10 +108,12 @@ namespace isochor
                       "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
                       "there is something to eliminate.");
     prm.declare_entry("Linear solver",
-                      "MUMPS",
+                      linear_solver_names.name(LinearSolver::automatic),
                       dealii::Patterns::Selection(linear_solver_names.selection()),
-                      "MUMPS: LDL^T, any number of ranks, counts negative pivots. UMFPACK: LU, "
-                      "one rank.");
+                      "kept: MUMPS' LDL^T in single precision, kept over several Newton iterations "
+                      "as the preconditioner of FGMRES. direct: MUMPS' LDL^T in double precision, "
+                      "anew in every iteration. UMFPACK: LU, likewise, one rank. All but UMFPACK "
+                      "count negative pivots. automatic: kept.");
     SteppingOptions::declare(prm);
     NewtonOptions::declare(prm);
     prm.leave_subsection();
@@ -140,7 +142,7 @@ namespace isochor
     check_condensation(method, material);
     if (method.linear.solver == LinearSolver::umfpack && n_ranks > 1)
       throw UserError("Method/Linear solver: UMFPACK runs on one rank, not on "
-                      + std::to_string(n_ranks) + "; choose MUMPS");
+                      + std::to_string(n_ranks) + "; choose direct or automatic");
   }
 
   void OutputOptions::declare(dealii::ParameterHandler &prm)

@@ -36,6 +36,26 @@ namespace isochor
       report.reason  = why;
       return report;
     }
+
+    /// How exactly to solve the next linear system: as well as Newton's method does, which is
+    /// quadratic once it is close, and not far below its target. The second choice of Eisenstat
+    /// and Walker (SIAM J. Sci. Comput. 17, 1996) with their safeguard: not much less than the
+    /// square of the term before.
+    double forcing_term(const double               before,
+                        const double               merit_before,
+                        const NewtonProblem::Size &size,
+                        const double               largest)
+    {
+      constexpr double gamma     = 0.9;
+      const double     ratio     = size.merit / merit_before;
+      double           term      = gamma * ratio * ratio;
+      const double     safeguard = gamma * before * before;
+      if (safeguard > 0.1)
+        term = std::max(term, safeguard);
+      // Written so that NaN gives the largest.
+      term = term < largest ? term : largest;
+      return std::max(term, std::min(0.1, 0.5 * size.target / size.merit));
+    }
   } // namespace
 
   NewtonReport newton(const NewtonProblem &problem, const NewtonOptions &options, Vector &x)
@@ -53,7 +73,8 @@ namespace isochor
     NewtonProblem::Size best_size  = size;
     unsigned int        since_best = 0;
     // Only steps that reduce the residual are taken.
-    bool strict = false;
+    bool   strict  = false;
+    double forcing = options.largest_linear_tolerance, merit_before = 0.;
 
     while (true)
       {
@@ -69,7 +90,9 @@ namespace isochor
             return finished(report, NewtonOutcome::iterations, why.str());
           }
 
-        const auto correction = problem.correction(x, residual, step);
+        forcing      = forcing_term(forcing, merit_before, size, options.largest_linear_tolerance);
+        merit_before = size.merit;
+        const auto correction = problem.correction(x, residual, forcing, step);
         ++report.iterations;
         if (!correction.succeeded)
           return finished(report, NewtonOutcome::linear, correction.failure);

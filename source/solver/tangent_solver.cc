@@ -6,11 +6,14 @@ namespace isochor
 {
   namespace
   {
-    // Sought, and still acceptable: Newton corrects what a solve leaves, but a direct solver that
-    // leaves more than this has met a singular matrix.
-    constexpr double       wanted_residual       = 1e-10;
-    constexpr double       acceptable_residual   = 1e-5;
-    constexpr unsigned int max_krylov_iterations = 60;
+    // Newton corrects what a solve leaves, but a direct solver in double precision that leaves more
+    // than this has met a singular matrix.
+    constexpr double       acceptable_residual                     = 1e-5;
+    constexpr unsigned int max_krylov_iterations                   = 60;
+    constexpr unsigned int max_krylov_iterations_with_kept_factors = 30;
+    // More, and new factors are cheaper.
+    constexpr unsigned int most_krylov_iterations_with_kept_factors = 12;
+    constexpr double       rate_tolerance                           = 1e-6;
 
     /// Groups of owned unknowns to eliminate.
     template <int dim>
@@ -37,14 +40,50 @@ namespace isochor
 
     template <int dim>
     std::unique_ptr<DirectSolver> make_solver(const Equilibrium<dim> &equilibrium,
-                                              const LinearOptions    &options)
+                                              const DirectKind        kind,
+                                              const Condensation      condensation)
     {
       const MPI_Comm communicator = equilibrium.discretisation().communicator();
-      auto           solver       = make_direct_solver(options.solver, communicator);
-      auto           groups       = eliminated_groups(equilibrium, options.condensation);
+      auto           solver       = make_direct_solver(kind, communicator);
+      auto           groups       = eliminated_groups(equilibrium, condensation);
       if (dealii::Utilities::MPI::sum(groups.size(), communicator) == 0)
         return solver;
       return std::make_unique<CondensedSolver>(std::move(solver), std::move(groups));
+    }
+
+    DirectKind kind_of(const LinearSolver solver)
+    {
+      switch (solver)
+        {
+          case LinearSolver::direct:
+            return DirectKind::mumps;
+          case LinearSolver::umfpack:
+            return DirectKind::umfpack;
+          default:
+            return DirectKind::single_mumps;
+        }
+    }
+
+    /// -d(residual) / d(load) and the rate of the prescribed unknowns. Loads are affine in the load
+    /// factor, so that the difference is exact; prescribed formulas may not be.
+    template <int dim>
+    void load_rates(const Equilibrium<dim> &equilibrium,
+                    const Vector           &state,
+                    const double            load,
+                    Vector                 &rhs,
+                    Vector                 &gap)
+    {
+      constexpr double h = 1e-4;
+      Vector           before(rhs);
+      equilibrium.residual(state, load - h, rhs);
+      equilibrium.residual(state, load + h, before);
+      rhs -= before;
+      rhs *= 1. / (2. * h);
+      equilibrium.prescribed().gap(state, load + h, gap);
+      equilibrium.prescribed().gap(state, load - h, before);
+      gap -= before;
+      gap *= 1. / (2. * h);
+      gap.update_ghost_values();
     }
   } // namespace
 
@@ -53,66 +92,170 @@ namespace isochor
                                     const LinearOptions    &options,
                                     Stopwatch              &stopwatch)
     : equilibrium(equilibrium)
+    , options(options)
     , stopwatch(stopwatch)
     , matrix(equilibrium.make_matrix())
-    , factors(make_solver(equilibrium, options))
+  {
+    use(kind_of(options.solver));
+  }
+
+  template <int dim>
+  void TangentSolver<dim>::use(const DirectKind new_kind)
   {
     const auto scope = stopwatch.measure(Phase::factorisation);
+    are_kept         = false;
+    kind             = new_kind;
+    factors          = make_solver(equilibrium, kind, options.condensation);
     factors->analyse(
         matrix, equilibrium.discretisation().node_of_row, equilibrium.discretisation().n_nodes);
+  }
+
+  template <int dim>
+  void TangentSolver<dim>::assemble(const Vector                                       &state,
+                                    const double                                        load,
+                                    const typename PrescribedDisplacements<dim>::Sides &sides)
+  {
+    const auto scope = stopwatch.measure(Phase::assembly);
+    state.update_ghost_values();
+    equilibrium.tangent(state, load, matrix);
+    equilibrium.prescribed().apply(matrix, sides);
+    if (!are_kept)
+      scaling.compute(matrix, equilibrium.discretisation().n_owned_displacements);
+    scaling.apply(matrix);
+    for (const auto &side : sides)
+      scaling.apply(*side.first);
+    ++counts.assemblies;
+  }
+
+  template <int dim>
+  Factorisation TangentSolver<dim>::factor()
+  {
+    const auto          scope         = stopwatch.measure(Phase::factorisation);
+    const Factorisation factorisation = factors->factor(matrix);
+    ++counts.factorisations;
+    counts.flops       = factorisation.flops;
+    counts.megabytes   = factorisation.megabytes;
+    counts.null_pivots = factorisation.null_pivots;
+    counts.pivot_excess.reset();
+    if (factorisation.negative_pivots)
+      counts.pivot_excess = static_cast<long long>(*factorisation.negative_pivots)
+                            - static_cast<long long>(equilibrium.discretisation().n_pressures);
+    return factorisation;
+  }
+
+  template <int dim>
+  Factorisation TangentSolver<dim>::factor_or_use_double()
+  {
+    const Factorisation factorisation = factor();
+    if (factorisation.succeeded || kind != DirectKind::single_mumps)
+      return factorisation;
+    counts.gave_up_single_precision = true;
+    use(DirectKind::mumps);
+    return factor();
   }
 
   template <int dim>
   NewtonProblem::Correction TangentSolver<dim>::correction(const Vector &state,
                                                            const double  load,
                                                            const Vector &residual,
-                                                           Vector       &step)
+                                                           const double  tolerance,
+                                                           Vector       &step,
+                                                           Vector       *rate)
   {
     Vector rhs(residual), gap(residual);
     rhs *= -1.;
-    {
-      const auto scope = stopwatch.measure(Phase::assembly);
-      state.update_ghost_values();
-      equilibrium.tangent(state, load, matrix);
-      equilibrium.prescribed().gap(state, load, gap);
-      equilibrium.prescribed().apply(matrix, rhs, gap);
-      ++counts.assemblies;
-    }
-    {
-      const auto          scope         = stopwatch.measure(Phase::factorisation);
-      const Factorisation factorisation = factors->factor(matrix);
-      ++counts.factorisations;
-      counts.flops       = factorisation.flops;
-      counts.megabytes   = factorisation.megabytes;
-      counts.null_pivots = factorisation.null_pivots;
-      counts.pivot_excess.reset();
-      if (factorisation.negative_pivots)
-        counts.pivot_excess = static_cast<long long>(*factorisation.negative_pivots)
-                              - static_cast<long long>(equilibrium.discretisation().n_pressures);
-      if (!factorisation.succeeded)
-        return {false, factorisation.failure};
-    }
-    return solve(rhs, step);
+    equilibrium.prescribed().gap(state, load, gap);
+    typename PrescribedDisplacements<dim>::Sides sides{{&rhs, &gap}};
+    Vector                                       rate_rhs, rate_gap;
+    if (rate != nullptr)
+      {
+        rate_rhs.reinit(residual);
+        rate_gap.reinit(residual);
+        load_rates(equilibrium, state, load, rate_rhs, rate_gap);
+        sides.emplace_back(&rate_rhs, &rate_gap);
+      }
+    assemble(state, load, sides);
+
+    LinearSolve outcome;
+    const auto  solve_all = [&]() {
+      outcome = solve(rhs, tolerance, step);
+      if (outcome.succeeded && rate != nullptr)
+        outcome = solve(rate_rhs, std::min(tolerance, rate_tolerance), *rate);
+      return outcome.succeeded;
+    };
+
+    bool is_solved = are_kept && solve_all();
+    if (!is_solved)
+      {
+        are_kept                          = false;
+        const Factorisation factorisation = factor_or_use_double();
+        if (!factorisation.succeeded)
+          return {false, factorisation.failure};
+        is_solved = solve_all();
+        if (!is_solved && kind == DirectKind::single_mumps)
+          {
+            counts.gave_up_single_precision = true;
+            use(DirectKind::mumps);
+            if (const Factorisation again = factor(); !again.succeeded)
+              return {false, again.failure};
+            is_solved = solve_all();
+          }
+      }
+    are_kept = is_solved && kind == DirectKind::single_mumps
+               && outcome.krylov_iterations <= most_krylov_iterations_with_kept_factors;
+    if (!is_solved)
+      return {false, complaint(outcome)};
+    scaling.apply(step);
+    if (rate != nullptr)
+      scaling.apply(*rate);
+    return {true, ""};
   }
 
   template <int dim>
-  NewtonProblem::Correction TangentSolver<dim>::solve(const Vector &rhs, Vector &step)
+  LinearSolve TangentSolver<dim>::solve(const Vector &rhs, const double tolerance, Vector &step)
   {
-    const auto        scope = stopwatch.measure(Phase::solve);
-    const LinearSolve outcome
-        = checked_solve(matrix, *factors, step, rhs, wanted_residual, max_krylov_iterations);
+    const auto  scope = stopwatch.measure(Phase::solve);
+    LinearSolve outcome
+        = checked_solve(matrix,
+                        *factors,
+                        step,
+                        rhs,
+                        tolerance,
+                        are_kept ? max_krylov_iterations_with_kept_factors : max_krylov_iterations);
     counts.krylov_iterations += outcome.krylov_iterations;
-    counts.worst_residual = std::max(counts.worst_residual, outcome.relative_residual);
-    // Written so that NaN fails.
-    if (!(outcome.relative_residual <= acceptable_residual))
+    if (kind != DirectKind::single_mumps)
+      outcome.succeeded |= outcome.relative_residual <= acceptable_residual; // NaN fails
+    if (outcome.succeeded)
+      counts.worst_residual = std::max(counts.worst_residual, outcome.relative_residual);
+    return outcome;
+  }
+
+  template <int dim>
+  std::string TangentSolver<dim>::complaint(const LinearSolve &outcome) const
+  {
+    std::ostringstream why;
+    why << "the linear solve left a relative residual of " << outcome.relative_residual;
+    if (counts.null_pivots > 0)
+      why << "; the tangent is singular (" << counts.null_pivots << " null pivots)";
+    return why.str();
+  }
+
+  template <int dim>
+  void TangentSolver<dim>::certify(const Vector &state, const double load)
+  {
+    if (kind == DirectKind::umfpack)
+      return;
+    are_kept = false;
+    assemble(state, load, {});
+    factor_or_use_double();
+    if (kind == DirectKind::single_mumps && counts.pivot_excess != 0)
       {
-        std::ostringstream why;
-        why << "the linear solve left a relative residual of " << outcome.relative_residual;
-        if (counts.null_pivots > 0)
-          why << "; the tangent is singular (" << counts.null_pivots << " null pivots)";
-        return {false, why.str()};
+        auto single = std::move(factors);
+        use(DirectKind::mumps);
+        factor();
+        factors = std::move(single);
+        kind    = DirectKind::single_mumps;
       }
-    return {true, ""};
   }
 
   template class TangentSolver<2>;

@@ -41,7 +41,7 @@ namespace isochor
       flags.local_element(unknown) = 1.;
     flags.update_ghost_values();
     is_prescribed_.resize(discretisation.partitioner->locally_owned_size()
-                         + discretisation.partitioner->n_ghost_indices());
+                          + discretisation.partitioner->n_ghost_indices());
     for (std::size_t i = 0; i < is_prescribed_.size(); ++i)
       is_prescribed_[i] = flags.local_element(i) != 0.;
   }
@@ -191,6 +191,12 @@ namespace isochor
   void
   PrescribedDisplacements<dim>::apply(SparseMatrix &matrix, Vector &rhs, const Vector &gap) const
   {
+    apply(matrix, Sides{{&rhs, &gap}});
+  }
+
+  template <int dim>
+  void PrescribedDisplacements<dim>::apply(SparseMatrix &matrix, const Sides &sides) const
+  {
     auto       &values    = matrix.values();
     const auto &columns   = matrix.columns();
     const auto &row_start = matrix.row_start();
@@ -198,14 +204,13 @@ namespace isochor
       {
         if (is_prescribed_[row])
           continue;
-        double moved = 0;
         for (std::size_t k = row_start[row]; k < row_start[row + 1]; ++k)
           if (is_prescribed_[columns[k]])
             {
-              moved += values[k] * gap.local_element(columns[k]);
+              for (const auto &[rhs, gap] : sides)
+                rhs->local_element(row) -= values[k] * gap->local_element(columns[k]);
               values[k] = 0.;
             }
-        rhs.local_element(row) -= moved;
       }
     for (const LocalIndex row : owned)
       {
@@ -220,7 +225,8 @@ namespace isochor
         if (!(diagonal > 0) || !std::isfinite(diagonal))
           diagonal = 1.;
         values[matrix.position(row, row)] = diagonal;
-        rhs.local_element(row)            = diagonal * gap.local_element(row);
+        for (const auto &[rhs, gap] : sides)
+          rhs->local_element(row) = diagonal * gap->local_element(row);
       }
   }
 

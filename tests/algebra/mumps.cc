@@ -47,7 +47,7 @@ namespace
 int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const auto solver = make_direct_solver(LinearSolver::mumps, MPI_COMM_WORLD);
+  const auto solver = make_direct_solver(DirectKind::mumps, MPI_COMM_WORLD);
   all_cases(*solver);
   for (const double shift : {0., 2., 10.})
     inertia(*solver, shift);

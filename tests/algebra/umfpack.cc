@@ -3,6 +3,8 @@
 
 #include "solver_cases.h"
 
+#include <isochor/core/error.h>
+
 using namespace isochor;
 using namespace isochor::testing;
 
@@ -11,8 +13,8 @@ int main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
     out() << message_of<UserError>([]() {
-      make_direct_solver(LinearSolver::umfpack, MPI_COMM_WORLD);
+      make_direct_solver(DirectKind::umfpack, MPI_COMM_WORLD);
     }) << "\n";
   else
-    all_cases(*make_direct_solver(LinearSolver::umfpack, MPI_COMM_WORLD));
+    all_cases(*make_direct_solver(DirectKind::umfpack, MPI_COMM_WORLD));
 }

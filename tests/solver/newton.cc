@@ -61,7 +61,7 @@ namespace
         return Size{std::abs(residual[0]), tolerance, admissible(x[0]), 0.};
       };
       problem.correction
-          = [&](const Vector &x, const Vector &residual, Vector &step) -> Correction {
+          = [&](const Vector &x, const Vector &residual, double, Vector &step) -> Correction {
         if (++solves >= fails_at)
           return {false, "the solver gives up"};
         step[0] = -residual[0] / slope(x[0]);
@@ -72,11 +72,12 @@ namespace
       };
       // The iterates as the linearisation sees them, and the last.
       const auto correction = problem.correction;
-      problem.correction    = [&](const Vector &x, const Vector &residual, Vector &step) {
-        if (x[0] != iterates.back())
-          iterates.push_back(x[0]);
-        return correction(x, residual, step);
-      };
+      problem.correction
+          = [&](const Vector &x, const Vector &residual, double tolerance, Vector &step) {
+              if (x[0] != iterates.back())
+                iterates.push_back(x[0]);
+              return correction(x, residual, tolerance, step);
+            };
       const NewtonReport report = newton(problem, options, x);
       if (x[0] != iterates.back())
         iterates.push_back(x[0]);
@@ -174,7 +175,7 @@ namespace
         r[1]              = values[1];
         return Size{r.l2_norm(), 1e-8, true, gap(pair(x))};
       };
-      problem.correction = [&](const Vector &x, const Vector &r, Vector &s) -> Correction {
+      problem.correction = [&](const Vector &x, const Vector &r, double, Vector &s) -> Correction {
         const Pair values = step(pair(x), pair(r));
         s[0]              = values[0];
         s[1]              = values[1];

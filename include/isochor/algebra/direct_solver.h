@@ -1,23 +1,21 @@
 #pragma once
 
-// Sparse direct solvers: MUMPS (symmetric LDL^T, any number of ranks, counts negative pivots)
-// and UMFPACK (LU, one rank).
+// Sparse direct solvers: MUMPS (symmetric LDL^T in double or single precision, any number of ranks,
+// counts negative pivots) and UMFPACK (LU, one rank).
 
 #include <isochor/algebra/sparse_matrix.h>
-#include <isochor/core/names.h>
 
 #include <optional>
 #include <string>
 
 namespace isochor
 {
-  enum class LinearSolver
+  enum class DirectKind
   {
-    mumps,  ///< LDL^T of the symmetric part
-    umfpack ///< LU
+    mumps,        ///< LDL^T of the symmetric part
+    single_mumps, ///< the same in single precision: half the memory, a preconditioner
+    umfpack       ///< LU
   };
-  inline constexpr auto linear_solver_names = name_table<LinearSolver>(
-      { { LinearSolver::mumps, "MUMPS" }, { LinearSolver::umfpack, "UMFPACK" } });
 
   struct Factorisation
   {
@@ -44,6 +42,12 @@ namespace isochor
                          GlobalIndex                     n_nodes)
         = 0;
 
+    /// What analyse() says that factor() will need, all ranks together; 0: not known.
+    virtual double predicted_megabytes() const
+    {
+      return 0.;
+    }
+
     /// Numeric factorisation; analyse() must have seen the same pattern. Collective.
     virtual Factorisation factor(const SparseMatrix &matrix) = 0;
 
@@ -51,7 +55,7 @@ namespace isochor
     virtual void solve(Vector &solution, const Vector &rhs) = 0;
   };
 
-  std::unique_ptr<DirectSolver> make_direct_solver(LinearSolver kind, MPI_Comm communicator);
+  std::unique_ptr<DirectSolver> make_direct_solver(DirectKind kind, MPI_Comm communicator);
 
   /// Outcome of a solve whose residual was checked.
   struct LinearSolve

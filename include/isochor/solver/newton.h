@@ -27,6 +27,8 @@ namespace isochor
     unsigned int max_halvings   = 8; ///< of one step
     /// Iterations that may pass without a smaller residual before the search turns strict.
     unsigned int patience = 5;
+    /// Linear systems are solved to this relative residual at most; see forcing_term().
+    double largest_linear_tolerance = 1e-3;
 
     static void declare(dealii::ParameterHandler &prm);
     void        parse(dealii::ParameterHandler &prm);
@@ -54,8 +56,11 @@ namespace isochor
     /// Residual at @p x.
     std::function<Size(const Vector &x, Vector &residual)> residual;
 
-    /// Linearise at @p x and solve for the Newton step, prescribed values included.
-    std::function<Correction(const Vector &x, const Vector &residual, Vector &step)> correction;
+    /// Linearise at @p x and solve for the Newton step, prescribed values included; a relative
+    /// residual of @p tolerance in the linear system is enough.
+    std::function<
+        Correction(const Vector &x, const Vector &residual, double tolerance, Vector &step)>
+        correction;
 
     /// Called after every accepted iterate; true asks to stop (an interrupt).
     std::function<bool(unsigned int iteration, const Size &size, double step_length)> accepted;
@@ -74,7 +79,7 @@ namespace isochor
   struct NewtonReport
   {
     NewtonOutcome outcome    = NewtonOutcome::converged;
-    unsigned int  iterations = 0; ///< = factorisations
+    unsigned int  iterations = 0; ///< = linear systems solved
     unsigned int  halvings   = 0;
     double        merit      = 0; ///< last
     std::string   reason;         ///< in words, empty if converged

@@ -1,14 +1,33 @@
 #pragma once
 
-// One linearisation of an equilibrium: assemble, apply supports, factor, solve, check.
+// One linearisation of an equilibrium: assemble, apply supports, scale, factor, solve, check.
+//
+// Kept factors: an LDL^T in single precision of one tangent preconditions FGMRES in double precision
+// for this tangent and the next ones, until that takes too many iterations. Where single precision
+// does not do (a matrix close to singular), double precision takes over for good.
 
 #include <isochor/algebra/condensed_solver.h>
+#include <isochor/algebra/symmetric_scaling.h>
+#include <isochor/core/names.h>
 #include <isochor/core/stopwatch.h>
 #include <isochor/form/equilibrium.h>
 #include <isochor/solver/newton.h>
 
 namespace isochor
 {
+  enum class LinearSolver
+  {
+    automatic, ///< kept
+    kept,      ///< MUMPS in single precision, kept over several Newton iterations
+    direct,    ///< MUMPS in double precision, of every tangent
+    umfpack    ///< LU, of every tangent
+  };
+  inline constexpr auto linear_solver_names
+      = name_table<LinearSolver>({{LinearSolver::automatic, "automatic"},
+                                  {LinearSolver::kept, "kept"},
+                                  {LinearSolver::direct, "direct"},
+                                  {LinearSolver::umfpack, "UMFPACK"}});
+
   /// Which unknowns are eliminated before the direct solver.
   enum class Condensation
   {
@@ -25,7 +44,7 @@ namespace isochor
 
   struct LinearOptions
   {
-    LinearSolver solver       = LinearSolver::mumps;
+    LinearSolver solver       = LinearSolver::automatic;
     Condensation condensation = Condensation::automatic;
   };
 
@@ -38,9 +57,10 @@ namespace isochor
     /// Negative pivots minus pressure unknowns at the last factorisation: 0 certifies a stable
     /// equilibrium; unknown for LU.
     std::optional<long long> pivot_excess;
-    std::size_t              null_pivots = 0; ///< at the last factorisation
-    double                   flops       = 0; ///< of one factorisation
-    double                   megabytes   = 0; ///< of the factors
+    std::size_t              null_pivots              = 0; ///< at the last factorisation
+    double                   flops                    = 0; ///< of one factorisation
+    double                   megabytes                = 0; ///< of the factors
+    bool                     gave_up_single_precision = false;
   };
 
   template <int dim>
@@ -53,9 +73,21 @@ namespace isochor
                   Stopwatch              &stopwatch);
 
     /// step = Newton's step at @p state: moves the prescribed unknowns to their values at @p load and
-    /// solves K step = -residual for the others. Collective.
-    NewtonProblem::Correction
-    correction(const Vector &state, double load, const Vector &residual, Vector &step);
+    /// solves K step = -residual for the others, to a relative residual of @p tolerance.
+    ///
+    /// @p rate, if given: d(state) / d(load) along the path of equilibria, from K rate =
+    /// -d(residual) / d(load) with the rates of the prescribed unknowns. Collective.
+    NewtonProblem::Correction correction(const Vector &state,
+                                         double        load,
+                                         const Vector &residual,
+                                         double        tolerance,
+                                         Vector       &step,
+                                         Vector       *rate = nullptr);
+
+    /// Factor the tangent at @p state for its negative pivots: statistics().pivot_excess, in
+    /// double precision wherever single precision shows anything but a stable equilibrium.
+    /// Unknown for LU. Collective.
+    void certify(const Vector &state, double load);
 
     const LinearStatistics &statistics() const
     {
@@ -63,12 +95,24 @@ namespace isochor
     }
 
   private:
-    NewtonProblem::Correction solve(const Vector &rhs, Vector &step);
+    void          use(DirectKind kind);
+    void          assemble(const Vector                                       &state,
+                           double                                              load,
+                           const typename PrescribedDisplacements<dim>::Sides &sides);
+    Factorisation factor();
+    Factorisation factor_or_use_double();
+    LinearSolve   solve(const Vector &rhs, double tolerance, Vector &step);
+    std::string   complaint(const LinearSolve &outcome) const;
 
     const Equilibrium<dim>       &equilibrium;
+    LinearOptions                 options;
     Stopwatch                    &stopwatch;
-    SparseMatrix                  matrix;
+    SparseMatrix                  matrix; ///< scaled
+    SymmetricScaling              scaling;
     std::unique_ptr<DirectSolver> factors;
-    LinearStatistics              counts;
+    DirectKind                    kind = DirectKind::mumps;
+    /// FGMRES converges fast enough with the factors of an earlier tangent.
+    bool             are_kept = false;
+    LinearStatistics counts;
   };
 } // namespace isochor

@@ -45,6 +45,10 @@ namespace isochor
     /// dx = gap on the prescribed unknowns, and A is as symmetric as it was.
     void apply(SparseMatrix &matrix, Vector &rhs, const Vector &gap) const;
 
+    /// The same for several right-hand sides and their gaps.
+    using Sides = std::vector<std::pair<Vector *, const Vector *>>;
+    void apply(SparseMatrix &matrix, const Sides &sides) const;
+
     /// Zero the prescribed entries.
     void set_zero(Vector &vector) const;
 
@@ -61,8 +65,8 @@ namespace isochor
     void check_rigid_modes(MPI_Comm communicator) const;
 
     std::vector<Support<dim>> supports;
-    std::vector<Entry>        entries;       ///< owned, one per unknown, ascending
-    std::vector<LocalIndex>   owned;         ///< unknowns of entries
+    std::vector<Entry>        entries;        ///< owned, one per unknown, ascending
+    std::vector<LocalIndex>   owned;          ///< unknowns of entries
     std::vector<char>         is_prescribed_; ///< by local index, ghosts included
     MPI_Comm                  communicator;
   };

@@ -1,0 +1,26 @@
+#pragma once
+
+// S A S with a positive diagonal S: metres and cubic metres, newtons and pascals side by side in one
+// matrix become numbers of one size, which single precision and norms of residuals need.
+
+#include <isochor/algebra/sparse_matrix.h>
+
+namespace isochor
+{
+  class SymmetricScaling
+  {
+  public:
+    /// The first @p n_definite owned rows of each rank get a diagonal of +-1, the others (pressures)
+    /// a largest coupling with those of 1. Rows of zeros are left alone. Collective.
+    void compute(const SparseMatrix &matrix, LocalIndex n_definite);
+
+    /// matrix = S matrix S
+    void apply(SparseMatrix &matrix) const;
+
+    /// vector = S vector, the owned entries; ghosts are zeroed.
+    void apply(Vector &vector) const;
+
+  private:
+    Vector factors; ///< ghosts up to date
+  };
+} // namespace isochor

@@ -1,0 +1,51 @@
+#include <isochor/algebra/symmetric_scaling.h>
+
+#include <cmath>
+
+namespace isochor
+{
+  void SymmetricScaling::compute(const SparseMatrix &matrix, const LocalIndex n_definite)
+  {
+    const auto &values    = matrix.values();
+    const auto &columns   = matrix.columns();
+    const auto &row_start = matrix.row_start();
+    // Written so that zeros and NaN leave 1.
+    const auto inverse
+        = [](const double size) { return size > 0. && std::isfinite(size) ? 1. / size : 1.; };
+
+    factors.reinit(matrix.partitioner());
+    for (LocalIndex row = 0; row < n_definite; ++row)
+      factors.local_element(row) = inverse(std::sqrt(std::abs(values[matrix.position(row, row)])));
+    // Zero for the rows whose factor is still unknown, on the other ranks too.
+    factors.update_ghost_values();
+    std::vector<double> largest(matrix.n_rows() - n_definite, 0.);
+    for (LocalIndex row = n_definite; row < matrix.n_rows(); ++row)
+      for (std::size_t k = row_start[row]; k < row_start[row + 1]; ++k)
+        largest[row - n_definite] = std::max(
+            largest[row - n_definite], std::abs(values[k]) * factors.local_element(columns[k]));
+    factors.zero_out_ghost_values();
+    for (LocalIndex row = n_definite; row < matrix.n_rows(); ++row)
+      factors.local_element(row) = inverse(largest[row - n_definite]);
+    factors.update_ghost_values();
+  }
+
+  void SymmetricScaling::apply(SparseMatrix &matrix) const
+  {
+    auto       &values    = matrix.values();
+    const auto &columns   = matrix.columns();
+    const auto &row_start = matrix.row_start();
+    for (LocalIndex row = 0; row < matrix.n_rows(); ++row)
+      {
+        const double factor = factors.local_element(row);
+        for (std::size_t k = row_start[row]; k < row_start[row + 1]; ++k)
+          values[k] *= factor * factors.local_element(columns[k]);
+      }
+  }
+
+  void SymmetricScaling::apply(Vector &vector) const
+  {
+    vector.zero_out_ghost_values();
+    for (LocalIndex row = 0; row < vector.locally_owned_size(); ++row)
+      vector.local_element(row) *= factors.local_element(row);
+  }
+} // namespace isochor
