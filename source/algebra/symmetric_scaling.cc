@@ -4,7 +4,9 @@
 
 namespace isochor
 {
-  void SymmetricScaling::compute(const SparseMatrix &matrix, const LocalIndex n_definite)
+  void SymmetricScaling::compute(const SparseMatrix &matrix,
+                                 const LocalIndex    n_definite,
+                                 const unsigned int  n_together)
   {
     const auto &values    = matrix.values();
     const auto &columns   = matrix.columns();
@@ -14,8 +16,14 @@ namespace isochor
         = [](const double size) { return size > 0. && std::isfinite(size) ? 1. / size : 1.; };
 
     factors.reinit(matrix.partitioner());
-    for (LocalIndex row = 0; row < n_definite; ++row)
-      factors.local_element(row) = inverse(std::sqrt(std::abs(values[matrix.position(row, row)])));
+    for (LocalIndex first = 0; first < n_definite; first += n_together)
+      {
+        double sum = 0;
+        for (LocalIndex row = first; row < first + n_together; ++row)
+          sum += std::abs(values[matrix.position(row, row)]);
+        for (LocalIndex row = first; row < first + n_together; ++row)
+          factors.local_element(row) = inverse(std::sqrt(sum / n_together));
+      }
     // Zero for the rows whose factor is still unknown, on the other ranks too.
     factors.update_ghost_values();
     std::vector<double> largest(matrix.n_rows() - n_definite, 0.);

@@ -1,4 +1,6 @@
+#include <isochor/element/cell_quadrature.h>
 #include <isochor/form/elasticity_kernel.h>
+#include <isochor/form/predicted_stress.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -27,13 +29,29 @@ namespace isochor
                               && element.kind == CellKind::simplex
                               && discretisation.cells.all_affine;
     if (linear_cells)
-      kernel = make_linear_kernel<dim>(discretisation.cells.n_p);
+      {
+        kernel = make_linear_kernel<dim>(discretisation.cells.n_p);
+        points = cell_quadrature<dim>(element.kind, 1).get_points();
+      }
     else
-      kernel = make_quadrature_kernel(discretisation);
+      {
+        kernel = make_quadrature_kernel(discretisation);
+        points
+            = cell_quadrature<dim>(element.kind, discretisation.quadrature_degree()).get_points();
+      }
   }
 
   template <int dim>
   Elasticity<dim>::~Elasticity() = default;
+
+  template <int dim>
+  std::unique_ptr<PredictedStress> Elasticity<dim>::predict_stress(const Vector &state,
+                                                                   const Vector &change) const
+  {
+    auto stress = std::make_unique<PredictedStress>(points.size());
+    stress->predict(data, points, state, change);
+    return stress;
+  }
 
   template <int dim>
   bool Elasticity<dim>::is_linear() const

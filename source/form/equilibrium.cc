@@ -1,6 +1,7 @@
 #include <isochor/element/cell_quadrature.h>
 #include <isochor/form/equilibrium.h>
 #include <isochor/form/loads.h>
+#include <isochor/form/predicted_stress.h>
 
 #include <cmath>
 
@@ -91,10 +92,10 @@ namespace isochor
     // A load's formula may fail where only one rank evaluates it.
     collectively(discretisation_.communicator(), [&]() {
       for (const auto &term : loads)
-        value += term->add(state, load, {&external, nullptr, nullptr}).value;
+        value += term->add(state, load, {&external, nullptr, nullptr, nullptr}).value;
     });
     residual                   = 0.;
-    const Evaluation internals = internal->add(state, load, {&residual, nullptr, nullptr});
+    const Evaluation internals = internal->add(state, load, {&residual, nullptr, nullptr, nullptr});
     value += internals.value;
 
     double acting = 0, reacting = 0, largest = 0;
@@ -139,12 +140,24 @@ namespace isochor
   }
 
   template <int dim>
-  void Equilibrium<dim>::tangent(const Vector &state, const double load, SparseMatrix &matrix) const
+  void Equilibrium<dim>::tangent(const Vector          &state,
+                                 const double           load,
+                                 SparseMatrix          &matrix,
+                                 const PredictedStress *stress) const
   {
     std::fill(matrix.values().begin(), matrix.values().end(), 0.);
-    internal->add(state, load, {nullptr, &matrix, &offsets});
+    internal->add(state, load, {nullptr, &matrix, &offsets, stress});
     for (const auto &term : loads)
-      term->add(state, load, {nullptr, &matrix, &offsets});
+      term->add(state, load, {nullptr, &matrix, &offsets, nullptr});
+  }
+
+  template <int dim>
+  std::unique_ptr<PredictedStress> Equilibrium<dim>::predict_stress(const Vector &state,
+                                                                    const Vector &change) const
+  {
+    state.update_ghost_values();
+    change.update_ghost_values();
+    return internal->predict_stress(state, change);
   }
 
   template class Equilibrium<2>;

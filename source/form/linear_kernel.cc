@@ -1,5 +1,6 @@
 #include <isochor/form/elasticity_kernel.h>
 #include <isochor/form/local_system.h>
+#include <isochor/form/predicted_stress.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -32,7 +33,14 @@ namespace isochor
           {
             const unsigned int n_filled = std::min<std::size_t>(n_lanes, cells.n_cells - first);
             gather(cells, values, first, n_filled, in);
-            compute(data, in, target.tangent != nullptr, out);
+            Stress predicted;
+            if (target.stress != nullptr)
+              predicted = target.stress->of_cells(first, n_filled);
+            compute(data,
+                    in,
+                    target.tangent != nullptr,
+                    target.stress != nullptr ? &predicted : nullptr,
+                    out);
 
             lower(evaluation.min_jacobian, isochor::min(out.J));
             for (unsigned int lane = 0; lane < n_filled && first + lane < cells.n_owned; ++lane)
@@ -103,6 +111,7 @@ namespace isochor
       static void compute(const ElasticityData<dim> &data,
                           const CellBatch           &in,
                           const bool                 with_tangent,
+                          const Stress              *predicted,
                           BatchSystem               &out)
       {
         Deformation deformation;
@@ -117,6 +126,8 @@ namespace isochor
 
         Response response;
         data.energy->evaluate(deformation, with_tangent, response);
+        if (predicted != nullptr)
+          replace_geometric_stress(deformation, *predicted, response);
         const VolumetricResponse volumetric = evaluate(data.volumetric_strain, deformation);
 
         Batch q = data.moduli.kappa * volumetric.phi;
@@ -129,6 +140,8 @@ namespace isochor
           }
         add_volumetric(
             deformation, volumetric, q, mixed ? 0. : data.moduli.kappa, with_tangent, response);
+        if (predicted != nullptr)
+          replace_volumetric_stress(deformation, volumetric, q, *predicted, response);
 
         out.J     = deformation.J;
         out.value = in.volume * (response.energy + (mixed ? 1. : 0.5) * q * volumetric.phi);

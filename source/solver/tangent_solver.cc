@@ -1,3 +1,4 @@
+#include <isochor/form/predicted_stress.h>
 #include <isochor/solver/tangent_solver.h>
 
 #include <sstream>
@@ -8,12 +9,11 @@ namespace isochor
   {
     // Newton corrects what a solve leaves, but a direct solver in double precision that leaves more
     // than this has met a singular matrix.
-    constexpr double       acceptable_residual                     = 1e-5;
-    constexpr unsigned int max_krylov_iterations                   = 60;
-    constexpr unsigned int max_krylov_iterations_with_kept_factors = 30;
+    constexpr double       acceptable_residual   = 1e-5;
+    constexpr unsigned int max_krylov_iterations = 60;
     // More, and new factors are cheaper.
-    constexpr unsigned int most_krylov_iterations_with_kept_factors = 12;
-    constexpr double       rate_tolerance                           = 1e-6;
+    constexpr unsigned int max_krylov_iterations_with_kept_factors = 10;
+    constexpr double       rate_tolerance                          = 1e-6;
 
     /// Groups of owned unknowns to eliminate.
     template <int dim>
@@ -95,6 +95,7 @@ namespace isochor
     , options(options)
     , stopwatch(stopwatch)
     , matrix(equilibrium.make_matrix())
+    , rotations(equilibrium.discretisation(), equilibrium.prescribed())
   {
     use(kind_of(options.solver));
   }
@@ -106,6 +107,8 @@ namespace isochor
     are_kept         = false;
     kind             = new_kind;
     factors          = make_solver(equilibrium, kind, options.condensation);
+    if (kind == DirectKind::single_mumps)
+      factors = std::make_unique<TurnedSolver<dim>>(std::move(factors), rotations);
     factors->analyse(
         matrix, equilibrium.discretisation().node_of_row, equilibrium.discretisation().n_nodes);
   }
@@ -113,18 +116,34 @@ namespace isochor
   template <int dim>
   void TangentSolver<dim>::assemble(const Vector                                       &state,
                                     const double                                        load,
+                                    const PredictedStress                              *stress,
                                     const typename PrescribedDisplacements<dim>::Sides &sides)
   {
     const auto scope = stopwatch.measure(Phase::assembly);
-    state.update_ghost_values();
-    equilibrium.tangent(state, load, matrix);
+    equilibrium.tangent(state, load, matrix, stress);
     equilibrium.prescribed().apply(matrix, sides);
     if (!are_kept)
-      scaling.compute(matrix, equilibrium.discretisation().n_owned_displacements);
+      scaling.compute(matrix, equilibrium.discretisation().n_owned_displacements, dim);
     scaling.apply(matrix);
     for (const auto &side : sides)
       scaling.apply(*side.first);
     ++counts.assemblies;
+  }
+
+  template <int dim>
+  std::unique_ptr<PredictedStress> TangentSolver<dim>::predicted_stress(const Vector &state) const
+  {
+    if (last_step.size() == 0 || equilibrium.is_linear())
+      return {};
+    Vector change(state);
+    change -= linearised_at;
+    const double length = (change * last_step) / last_step.norm_sqr();
+    Vector       rest(change);
+    rest.add(-length, last_step);
+    // Written so that NaN gives none.
+    if (!(length > 0. && length < 1. + 1e-6 && rest.l2_norm() <= 1e-6 * change.l2_norm()))
+      return {};
+    return equilibrium.predict_stress(linearised_at, change);
   }
 
   template <int dim>
@@ -162,19 +181,26 @@ namespace isochor
                                                            Vector       &step,
                                                            Vector       *rate)
   {
-    Vector rhs(residual), gap(residual);
-    rhs *= -1.;
-    equilibrium.prescribed().gap(state, load, gap);
-    typename PrescribedDisplacements<dim>::Sides sides{{&rhs, &gap}};
-    Vector                                       rate_rhs, rate_gap;
+    Vector rhs(residual), gap(residual), rate_rhs, rate_gap;
     if (rate != nullptr)
       {
         rate_rhs.reinit(residual);
         rate_gap.reinit(residual);
-        load_rates(equilibrium, state, load, rate_rhs, rate_gap);
-        sides.emplace_back(&rate_rhs, &rate_gap);
       }
-    assemble(state, load, sides);
+    const auto linearise = [&](const PredictedStress *stress) {
+      rhs.equ(-1., residual);
+      equilibrium.prescribed().gap(state, load, gap);
+      typename PrescribedDisplacements<dim>::Sides sides{{&rhs, &gap}};
+      if (rate != nullptr)
+        {
+          load_rates(equilibrium, state, load, rate_rhs, rate_gap);
+          sides.emplace_back(&rate_rhs, &rate_gap);
+        }
+      assemble(state, load, stress, sides);
+    };
+    state.update_ghost_values();
+    const auto stress = predicted_stress(state);
+    linearise(stress.get());
 
     LinearSolve outcome;
     const auto  solve_all = [&]() {
@@ -184,11 +210,23 @@ namespace isochor
       return outcome.succeeded;
     };
 
+    if (are_kept)
+      {
+        const auto scope = stopwatch.measure(Phase::solve);
+        rotations.update(state);
+      }
     bool is_solved = are_kept && solve_all();
     if (!is_solved)
       {
-        are_kept                          = false;
-        const Factorisation factorisation = factor_or_use_double();
+        are_kept = false;
+        rotations.start(state);
+        Factorisation factorisation = factor_or_use_double();
+        if (stress && counts.pivot_excess.value_or(0) > 0)
+          {
+            // Far from a solution the prediction may be one of compression.
+            linearise(nullptr);
+            factorisation = factor_or_use_double();
+          }
         if (!factorisation.succeeded)
           return {false, factorisation.failure};
         is_solved = solve_all();
@@ -202,12 +240,14 @@ namespace isochor
           }
       }
     are_kept = is_solved && kind == DirectKind::single_mumps
-               && outcome.krylov_iterations <= most_krylov_iterations_with_kept_factors;
+               && outcome.krylov_iterations <= max_krylov_iterations_with_kept_factors;
     if (!is_solved)
       return {false, complaint(outcome)};
     scaling.apply(step);
     if (rate != nullptr)
       scaling.apply(*rate);
+    linearised_at = state;
+    last_step     = step;
     return {true, ""};
   }
 
@@ -246,7 +286,8 @@ namespace isochor
     if (kind == DirectKind::umfpack)
       return;
     are_kept = false;
-    assemble(state, load, {});
+    state.update_ghost_values();
+    assemble(state, load, nullptr, {});
     factor_or_use_double();
     if (kind == DirectKind::single_mumps && counts.pivot_excess != 0)
       {

@@ -10,9 +10,11 @@ namespace isochor
   class SymmetricScaling
   {
   public:
-    /// The first @p n_definite owned rows of each rank get a diagonal of +-1, the others (pressures)
-    /// a largest coupling with those of 1. Rows of zeros are left alone. Collective.
-    void compute(const SparseMatrix &matrix, LocalIndex n_definite);
+    /// The first @p n_definite owned rows of each rank, @p n_together that follow each other with the
+    /// same factor, get a mean diagonal of 1; the others (pressures) a largest coupling with those of
+    /// 1. Rows of zeros are left alone. Collective.
+    void
+    compute(const SparseMatrix &matrix, LocalIndex n_definite, unsigned int n_together);
 
     /// matrix = S matrix S
     void apply(SparseMatrix &matrix) const;

@@ -56,6 +56,10 @@ namespace isochor
 
     Evaluation add(const Vector &state, double load, const Target &target) const override;
 
+    /// S* at @p state for a step of @p change, both with ghosts up to date. Not collective.
+    std::unique_ptr<PredictedStress> predict_stress(const Vector &state,
+                                                    const Vector &change) const;
+
     /// Small-strain elasticity: the residual is affine in the state.
     bool is_linear() const;
 
@@ -63,7 +67,8 @@ namespace isochor
     class Kernel;
 
   private:
-    ElasticityData<dim>           data;
-    std::unique_ptr<const Kernel> kernel;
+    ElasticityData<dim>             data;
+    std::unique_ptr<const Kernel>   kernel;
+    std::vector<dealii::Point<dim>> points; ///< of the kernel's quadrature
   };
 } // namespace isochor

@@ -45,7 +45,14 @@ namespace isochor
     residual(const Vector &state, double load, Vector &residual, Vector *reactions = nullptr) const;
 
     /// Tangent before supports are applied. Not collective.
-    void tangent(const Vector &state, double load, SparseMatrix &matrix) const;
+    void tangent(const Vector          &state,
+                 double                 load,
+                 SparseMatrix          &matrix,
+                 const PredictedStress *stress = nullptr) const;
+
+    /// For tangent() at @p state + @p change; see predicted_stress.h. Ghosts are updated. Collective.
+    std::unique_ptr<PredictedStress> predict_stress(const Vector &state,
+                                                    const Vector &change) const;
 
     const PrescribedDisplacements<dim> &prescribed() const
     {
@@ -76,7 +83,7 @@ namespace isochor
     PrescribedDisplacements<dim>       prescribed_;
     SparseMatrix                       pattern;
     CellOffsets                        offsets;
-    std::unique_ptr<Term>              internal;
+    std::unique_ptr<Elasticity<dim>>   internal;
     std::vector<std::unique_ptr<Term>> loads;
     bool                               is_compressible_ = true;
     bool                               is_linear_       = false;

@@ -6,6 +6,7 @@
 #include <isochor/element/cell_quadrature.h>
 #include <isochor/form/elasticity_kernel.h>
 #include <isochor/form/local_system.h>
+#include <isochor/form/predicted_stress.h>
 
 #include <algorithm>
 
@@ -69,8 +70,15 @@ namespace isochor
       std::vector<PointTangent> tangents(points.size());
       for (std::size_t cell = 0; cell < cells.n_cells; ++cell)
         {
-          const double value
-              = compute(data, cells, cell, values, with_tangent, tangents, *system, evaluation);
+          const double value = compute(data,
+                                       cells,
+                                       cell,
+                                       values,
+                                       with_tangent,
+                                       target.stress,
+                                       tangents,
+                                       *system,
+                                       evaluation);
           if (cell < cells.n_owned)
             evaluation.value += value;
           if (residual != nullptr)
@@ -107,6 +115,7 @@ namespace isochor
                    const std::size_t          cell,
                    const double              *values,
                    const bool                 with_tangent,
+                   const PredictedStress     *stress,
                    std::vector<PointTangent> &tangents,
                    System                    &out,
                    Evaluation                &evaluation) const
@@ -148,6 +157,12 @@ namespace isochor
 
           Response response;
           data.energy->evaluate(deformation, with_tangent, response);
+          Stress predicted;
+          if (stress != nullptr)
+            {
+              predicted = stress->of_points(cell, k);
+              replace_geometric_stress(deformation, predicted, response);
+            }
           const VolumetricResponse volumetric = evaluate(data.volumetric_strain, deformation);
           Batch                    q{};
           if constexpr (mixed)
@@ -157,6 +172,8 @@ namespace isochor
             q = data.moduli.kappa * volumetric.phi;
           add_volumetric(
               deformation, volumetric, q, mixed ? 0. : data.moduli.kappa, with_tangent, response);
+          if (stress != nullptr)
+            replace_volumetric_stress(deformation, volumetric, q, predicted, response);
 
           value += weight * (response.energy + (mixed ? 1. : 0.5) * q * volumetric.phi);
           for (int i = 0; i < 3; ++i)

@@ -10,6 +10,7 @@
 namespace isochor
 {
   struct CellOffsets;
+  class PredictedStress;
 
   struct Evaluation
   {
@@ -23,6 +24,8 @@ namespace isochor
     Vector            *residual = nullptr; ///< ghost entries are scratch
     SparseMatrix      *tangent  = nullptr;
     const CellOffsets *offsets  = nullptr; ///< of the tangent
+    /// The geometric stiffness of this stress in the place of the state's.
+    const PredictedStress *stress = nullptr;
   };
 
   class Term

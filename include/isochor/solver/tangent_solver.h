@@ -12,6 +12,7 @@
 #include <isochor/core/stopwatch.h>
 #include <isochor/form/equilibrium.h>
 #include <isochor/solver/newton.h>
+#include <isochor/solver/nodal_rotations.h>
 
 namespace isochor
 {
@@ -95,24 +96,29 @@ namespace isochor
     }
 
   private:
-    void          use(DirectKind kind);
-    void          assemble(const Vector                                       &state,
-                           double                                              load,
-                           const typename PrescribedDisplacements<dim>::Sides &sides);
-    Factorisation factor();
-    Factorisation factor_or_use_double();
-    LinearSolve   solve(const Vector &rhs, double tolerance, Vector &step);
-    std::string   complaint(const LinearSolve &outcome) const;
+    void use(DirectKind kind);
+    void assemble(const Vector                                       &state,
+                  double                                              load,
+                  const PredictedStress                              *stress,
+                  const typename PrescribedDisplacements<dim>::Sides &sides);
+    /// For a @p state that Newton's last step led to; null for any other.
+    std::unique_ptr<PredictedStress> predicted_stress(const Vector &state) const;
+    Factorisation                    factor();
+    Factorisation                    factor_or_use_double();
+    LinearSolve                      solve(const Vector &rhs, double tolerance, Vector &step);
+    std::string                      complaint(const LinearSolve &outcome) const;
 
     const Equilibrium<dim>       &equilibrium;
     LinearOptions                 options;
     Stopwatch                    &stopwatch;
     SparseMatrix                  matrix; ///< scaled
     SymmetricScaling              scaling;
+    NodalRotations<dim>           rotations; ///< since the factors
     std::unique_ptr<DirectSolver> factors;
     DirectKind                    kind = DirectKind::mumps;
     /// FGMRES converges fast enough with the factors of an earlier tangent.
     bool             are_kept = false;
+    Vector           linearised_at, last_step; ///< of the last correction; empty before
     LinearStatistics counts;
   };
 } // namespace isochor
