@@ -26,7 +26,7 @@ namespace isochor
     unsigned int max_iterations = 25;
     unsigned int max_halvings   = 8; ///< of one step
     /// Iterations that may pass without a smaller residual before the search turns strict.
-    unsigned int patience = 8;
+    unsigned int patience = 5;
     /// Linear systems are solved to this relative residual at most; see forcing_term().
     double largest_linear_tolerance = 1e-3;
 
