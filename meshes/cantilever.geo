@@ -4,8 +4,8 @@
 DefineConstant[ size = 0.05 ];   // edge length, m
 DefineConstant[ hexahedra = 0 ]; // 1: hexahedra
 
-length = 1.0; // m
-width  = 0.1; // m, along y and z
+DefineConstant[ length = 1.0 ];  // m
+width = 0.1;                     // m, along y and z
 
 SetFactory("OpenCASCADE");
 Box(1) = { 0, 0, 0, length, width, width };

@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""Tetrahedra of a .geo file, by the gmsh library that Isochor meshes with, and their .msh file.
+
+  gmsh_mesh.py GEOMETRY.geo EDGE_LENGTH TARGET.msh
+"""
+
+import ctypes
+import ctypes.util
+import sys
+from pathlib import Path
+
+import numpy as np
+
+
+class Failed(Exception):
+    pass
+
+
+def write_mesh(geometry, size, target):
+    """Mesh the file GEOMETRY with edge length SIZE (m) into TARGET, version 2.2 of gmsh's format."""
+    name = ctypes.util.find_library("gmsh")
+    if name is None:
+        raise Failed("the gmsh library is missing: apt-get install libgmsh-dev")
+    gmsh = ctypes.CDLL(name)
+
+    def call(function, *arguments):
+        error = ctypes.c_int(0)
+        getattr(gmsh, function)(*arguments, ctypes.byref(error))
+        if error.value:
+            raise Failed(f"{function}: gmsh error {error.value}")
+
+    def option(key, value):
+        call("gmshOptionSetNumber", key.encode(), ctypes.c_double(value))
+
+    # A constant that exists before DefineConstant wins.
+    wrapper = target.with_suffix(".geo")
+    wrapper.write_text(f'size = {size!r};\nInclude "{geometry}";\n', encoding="utf-8")
+    call("gmshInitialize", 0, None, 0)
+    option("General.Terminal", 0)
+    option("General.NumThreads", 1)
+    option("Mesh.RandomSeed", 1)
+    option("Mesh.MshFileVersion", 2.2)
+    call("gmshOpen", str(wrapper).encode())
+    call("gmshModelMeshGenerate", 3)
+    call("gmshWrite", str(target).encode())
+    call("gmshFinalize")
+
+
+def read_tetrahedra(file):
+    """Points (n, 3) and tetrahedra (m, 4) of a .msh file of version 2.2."""
+    with open(file, encoding="utf-8") as stream:
+        sections = {}
+        for line in stream:
+            if line.startswith("$") and not line.startswith("$End"):
+                lines = sections[line.strip()[1:]] = []
+            elif not line.startswith("$"):
+                lines.append(line)
+    nodes = np.array([line.split() for line in sections["Nodes"][1:]], dtype=float)
+    tetrahedron = 4
+    elements = [line.split() for line in sections["Elements"][1:]]
+    cells = np.array([e[-4:] for e in elements if int(e[1]) == tetrahedron], dtype=np.int64)
+    place = np.full(int(nodes[:, 0].max()) + 1, -1, dtype=np.int64)
+    place[nodes[:, 0].astype(np.int64)] = np.arange(len(nodes))
+    return nodes[:, 1:], place[cells]
+
+
+if __name__ == "__main__":
+    write_mesh(Path(sys.argv[1]).resolve(), float(sys.argv[2]), Path(sys.argv[3]))
