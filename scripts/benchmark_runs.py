@@ -88,17 +88,23 @@ def interleaved(repeat, cases, methods, measure):
 
 
 def medians(runs):
-    """Of each number; words are those of the first run."""
-    return {name: statistics.median(run[name] for run in runs)
-            if all(isinstance(run.get(name), (int, float)) for run in runs) else value
-            for name, value in runs[0].items()}
+    """Of each number, whole if it is a count; words are those of the first run."""
+    def median(name):
+        values = [run.get(name) for run in runs]
+        if all(isinstance(value, int) for value in values):
+            return statistics.median_low(values)
+        if all(isinstance(value, (int, float)) for value in values):
+            return statistics.median(values)
+        return values[0]
+
+    return {name: median(name) for name in runs[0]}
 
 
 def numbers(row):
     """The row with its numbers as numbers, and "seconds": all of them but those for the mesh."""
     values = {name: text if number(text) is None else
               int(text) if text.isdigit() else float(text) for name, text in row.items()}
-    values["seconds"] = values["seconds total"] - values["seconds mesh"]
+    values["seconds"] = round(values["seconds total"] - values["seconds mesh"], 9)
     return values
 
 

@@ -18,10 +18,9 @@ import resource
 import sys
 import time
 
-import gmsh_mesh
-
 try:
     import dolfinx
+    import gmsh_mesh
     import numpy as np
     import ufl
     from dolfinx import fem
