@@ -38,6 +38,10 @@ namespace
         ->allow_extra_args(false);
     app.add_option("--output", invocation.output, "folder for results")->type_name("DIR");
     app.add_flag("--overwrite", invocation.overwrite, "replace the results in that folder");
+    app.add_flag("--restart",
+                 invocation.restart,
+                 "go on where an interruption ended it: finished runs stay, the interrupted one "
+                 "continues from its last saved state");
     app.add_flag("--inf-sup",
                  invocation.inf_sup,
                  "also test the stability of the pressure: inf-sup constant and spurious modes");
@@ -65,6 +69,15 @@ namespace
         if (on_root && parameters)
           print_parameters();
         return 0;
+      }
+    if (invocation.restart && (invocation.overwrite || invocation.check_only))
+      {
+        if (on_root)
+          std::cerr
+              << "error: --restart keeps what --overwrite removes and --check does not touch; "
+                 "choose one"
+              << std::endl;
+        return code(isochor::ExitCode::bad_input);
       }
     if (invocation.file.empty())
       {

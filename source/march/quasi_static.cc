@@ -97,17 +97,23 @@ namespace isochor
                                  const SteppingOptions  &stepping,
                                  const MarchCallbacks   &callbacks,
                                  Stopwatch              &stopwatch,
-                                 Vector                 &state)
+                                 Vector                 &state,
+                                 const MarchState       &begin)
   {
     // A linear problem is to take one iteration.
     NewtonOptions newton_options = asked_newton_options;
     if (equilibrium.is_linear())
       newton_options.largest_linear_tolerance = 0.;
 
-    MarchReport  report;
+    MarchReport  report       = begin.report;
     const double largest_step = 1. / stepping.load_steps;
-    double       step         = largest_step;
-    Vector       trial(state);
+    double step = begin.next_step > 0. ? std::min(begin.next_step, largest_step) : largest_step;
+    if (begin.state.size() > 0)
+      {
+        state = begin.state;
+        state.update_ghost_values();
+      }
+    Vector trial(state);
 
     while (report.load < 1.)
       {
@@ -137,6 +143,8 @@ namespace isochor
             step = std::min(2. * step, largest_step);
             callbacks.converged({report.load_steps, load, newton_report, size, clock.total()},
                                 state);
+            if (callbacks.resumable && load < 1.)
+              callbacks.resumable({report, step, state});
           }
         else if (newton_report.outcome == NewtonOutcome::interrupted)
           {
@@ -178,12 +186,14 @@ namespace isochor
                                           const SteppingOptions &,
                                           const MarchCallbacks &,
                                           Stopwatch &,
-                                          Vector &);
+                                          Vector &,
+                                          const MarchState &);
   template MarchReport march_quasi_static(const Equilibrium<3> &,
                                           TangentSolver<3> &,
                                           const NewtonOptions &,
                                           const SteppingOptions &,
                                           const MarchCallbacks &,
                                           Stopwatch &,
-                                          Vector &);
+                                          Vector &,
+                                          const MarchState &);
 } // namespace isochor

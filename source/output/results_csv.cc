@@ -1,10 +1,13 @@
 #include <isochor/core/error.h>
+#include <isochor/output/atomic_file.h>
 #include <isochor/output/results_csv.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 
 namespace isochor
 {
@@ -27,7 +30,52 @@ namespace isochor
         text += (i == 0 ? "" : ",") + quoted(fields[i]);
       return text + '\n';
     }
+
+    /// The records of a CSV text, each ended by a line feed outside quotes.
+    std::vector<std::vector<std::string>> records(const std::string &text)
+    {
+      std::vector<std::vector<std::string>> records;
+      std::vector<std::string>              fields(1);
+      bool                                  is_quoted = false;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '"')
+          {
+            // Two quotes within quotes stand for one.
+            if (is_quoted && i + 1 < text.size() && text[i + 1] == '"')
+              fields.back() += text[i++];
+            else
+              is_quoted = !is_quoted;
+          }
+        else if (!is_quoted && text[i] == ',')
+          fields.emplace_back();
+        else if (!is_quoted && text[i] == '\n')
+          {
+            records.push_back(std::move(fields));
+            fields.assign(1, "");
+          }
+        else
+          fields.back() += text[i];
+      return records;
+    }
   } // namespace
+
+  std::vector<ResultRow> read_results(const std::filesystem::path &file)
+  {
+    std::ifstream      stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    std::vector<ResultRow> rows;
+    const auto             all = records(text.str());
+    for (std::size_t r = 1; r < all.size(); ++r)
+      if (all[r].size() == all[0].size())
+        {
+          ResultRow row;
+          for (std::size_t k = 0; k < all[0].size(); ++k)
+            row.emplace_back(all[0][k], all[r][k]);
+          rows.push_back(std::move(row));
+        }
+    return rows;
+  }
 
   std::string csv_number(const double value)
   {
@@ -37,12 +85,18 @@ namespace isochor
     return std::string(text, end);
   }
 
-  ResultsCsv::ResultsCsv(MPI_Comm communicator, std::filesystem::path file)
+  ResultsCsv::ResultsCsv(MPI_Comm                      communicator,
+                         std::filesystem::path         file,
+                         const std::vector<ResultRow> &kept)
     : communicator(communicator)
     , file(std::move(file))
   {
     on_root_collectively(communicator, [&]() {
-      stream.reset(std::fopen(this->file.c_str(), "wb"));
+      std::string text;
+      for (const ResultRow &row : kept)
+        text += lines(row);
+      write_whole_file(this->file, text);
+      stream.reset(std::fopen(this->file.c_str(), "ab"));
       if (!stream)
         throw UserError(this->file.string() + ": cannot be written: " + std::strerror(errno));
     });
@@ -51,28 +105,28 @@ namespace isochor
   void ResultsCsv::add(const ResultRow &row)
   {
     on_root_collectively(communicator, [&]() {
-      std::vector<std::string> names, values;
-      for (const auto &[name, value] : row)
-        {
-          names.push_back(name);
-          values.push_back(value);
-        }
-      if (columns.empty())
-        {
-          write(line(names) + line(values));
-          columns = names;
-        }
-      else if (names == columns)
-        write(line(values));
-      else
-        throw std::logic_error(file.string() + ": a row whose columns are not those of the header");
+      const std::string text = lines(row);
+      if (std::fwrite(text.data(), 1, text.size(), stream.get()) != text.size()
+          || std::fflush(stream.get()) != 0)
+        throw UserError(file.string() + ": cannot be written: " + std::strerror(errno));
     });
   }
 
-  void ResultsCsv::write(const std::string &text)
+  std::string ResultsCsv::lines(const ResultRow &row)
   {
-    if (std::fwrite(text.data(), 1, text.size(), stream.get()) != text.size()
-        || std::fflush(stream.get()) != 0)
-      throw UserError(file.string() + ": cannot be written: " + std::strerror(errno));
+    std::vector<std::string> names, values;
+    for (const auto &[name, value] : row)
+      {
+        names.push_back(name);
+        values.push_back(value);
+      }
+    if (columns.empty())
+      {
+        columns = names;
+        return line(names) + line(values);
+      }
+    if (names != columns)
+      throw std::logic_error(file.string() + ": a row whose columns are not those of the header");
+    return line(values);
   }
 } // namespace isochor

@@ -177,7 +177,7 @@ namespace isochor
     });
 
     // A record follows the files that it names.
-    written.emplace_back(load, n_ranks == 1 ? name + ".vtu" : name + ".pvtu");
+    written_.emplace_back(load, n_ranks == 1 ? name + ".vtu" : name + ".pvtu");
     on_root_collectively(communicator, [&]() {
       if (n_ranks > 1)
         {
@@ -185,10 +185,10 @@ namespace isochor
           for (unsigned int r = 0; r < n_ranks; ++r)
             if (n_cells[r] > 0)
               pieces.push_back(piece(r));
-          write_whole_file(folder / written.back().second, writer->pvtu(pieces));
+          write_whole_file(folder / written_.back().second, writer->pvtu(pieces));
         }
       std::ostringstream pvd;
-      dealii::DataOutBase::write_pvd_record(pvd, written);
+      dealii::DataOutBase::write_pvd_record(pvd, written_);
       write_whole_file(folder / "solution.pvd", pvd.str());
     });
   }

@@ -145,6 +145,29 @@ namespace isochor
                       + std::to_string(n_ranks) + "; choose direct or automatic");
   }
 
+  namespace
+  {
+    std::optional<double> parse_checkpoint(const std::string &text)
+    {
+      if (text == "never")
+        return {};
+      if (text == "steps")
+        return 0.;
+      const std::string what = "Output/Checkpoint";
+      try
+        {
+          if (const double seconds = parse_number(text, what); seconds >= 0.)
+            return seconds;
+        }
+      catch (const UserError &)
+        {
+        }
+      throw UserError(what + ": '" + text
+                      + "' is not allowed; choose steps, never, or a number of seconds of at least "
+                        "0");
+    }
+  } // namespace
+
   void OutputOptions::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
@@ -159,6 +182,13 @@ namespace isochor
                       dealii::Patterns::Selection(vtu_output_names.selection()),
                       "Which states are written for ParaView: of every load step, the final one "
                       "only, none.");
+    prm.declare_entry("Checkpoint",
+                      "steps",
+                      dealii::Patterns::Anything(),
+                      "When the state is saved, so that --restart can go on from it after an "
+                      "interruption: steps (after each load step), never, or a number of seconds, "
+                      "at least 0, that lie at least between two saves. The last two are kept; a "
+                      "run that converges removes them. Example: 60");
     prm.declare_entry("Inf-sup test",
                       "false",
                       dealii::Patterns::Bool(),
@@ -172,9 +202,10 @@ namespace isochor
   {
     OutputOptions options;
     prm.enter_subsection("Output");
-    options.folder  = prm.get("Folder");
-    options.vtu     = vtu_output_names.value(prm.get("VTU"), "Output/VTU");
-    options.inf_sup = prm.get_bool("Inf-sup test");
+    options.folder              = prm.get("Folder");
+    options.vtu                 = vtu_output_names.value(prm.get("VTU"), "Output/VTU");
+    options.inf_sup             = prm.get_bool("Inf-sup test");
+    options.checkpoint_interval = parse_checkpoint(trim(prm.get("Checkpoint")));
     prm.leave_subsection();
     return options;
   }

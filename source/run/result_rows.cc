@@ -1,6 +1,8 @@
+#include <isochor/core/text.h>
 #include <isochor/output/table.h>
 #include <isochor/run/result_rows.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -130,6 +132,38 @@ namespace isochor
     add("reason", result.reason);
     add("role", planned.in_grid ? "run" : "reference");
     return row;
+  }
+
+  RunResult result_of_row(const ResultRow &row)
+  {
+    RunResult  result;
+    const auto text = [&](const std::string &name) {
+      const auto entry
+          = std::ranges::find_if(row, [&](const auto &column) { return column.first == name; });
+      return entry == row.end() ? std::string() : entry->second;
+    };
+    const auto count = [&](const std::string &name) {
+      return parse_whole_number(text(name), 0, "results.csv: " + name);
+    };
+    result.status                  = text("status");
+    result.reason                  = text("reason");
+    result.unknowns                = count("unknowns");
+    result.march.newton_iterations = count("newton iterations");
+    result.seconds_total           = parse_number(text("seconds total"), "results.csv");
+    // A probe's column, "tip y [m]", stands before "tip y error".
+    for (std::size_t k = 1; k < row.size(); ++k)
+      {
+        const std::string &title = row[k - 1].first, suffix = " error";
+        const std::string  name = title.substr(0, title.rfind(" ["));
+        if (row[k].first != name + suffix)
+          continue;
+        result.probe_columns.push_back(
+            {name,
+             name == title ? "" : title.substr(name.size() + 2, title.size() - name.size() - 3)});
+        if (result.converged())
+          result.probe_values.push_back(parse_number(row[k - 1].second, "results.csv: " + title));
+      }
+    return result;
   }
 
   std::string study_table(const StudyPlan                &plan,

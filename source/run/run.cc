@@ -3,10 +3,12 @@
 #include <isochor/output/vtu.h>
 #include <isochor/run/interrupt.h>
 #include <isochor/run/progress.h>
+#include <isochor/run/saved_run.h>
 #include <isochor/run/warnings.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace isochor
@@ -26,13 +28,25 @@ namespace isochor
       return dealii::Utilities::MPI::max(memory.VmHWM / 1024., communicator);
     }
 
+    /// Of this rank, by phase.
+    auto seconds_of(const Stopwatch &stopwatch)
+    {
+      decltype(RunResult::seconds) seconds;
+      for (std::size_t k = 0; k < seconds.size(); ++k)
+        seconds[k] = stopwatch.seconds(static_cast<Phase>(k));
+      return seconds;
+    }
+
     /// Load-displacement history: steps.csv.
     class StepTable
     {
     public:
-      StepTable(const RunSettings &settings, const std::vector<ProbeColumn> &columns)
+      /// The first @p n_kept rows of an interrupted run stay.
+      StepTable(const RunSettings              &settings,
+                const std::vector<ProbeColumn> &columns,
+                const std::size_t               n_kept)
         : columns(columns)
-        , csv(settings.communicator, settings.folder / "steps.csv")
+        , csv(settings.communicator, file(settings), kept(file(settings), n_kept))
       {
       }
 
@@ -50,6 +64,19 @@ namespace isochor
       }
 
     private:
+      static std::filesystem::path file(const RunSettings &settings)
+      {
+        return settings.folder / "steps.csv";
+      }
+      static std::vector<ResultRow> kept(const std::filesystem::path &file, const std::size_t n)
+      {
+        if (n == 0)
+          return {};
+        auto rows = read_results(file);
+        rows.resize(std::min(n, rows.size()));
+        return rows;
+      }
+
       const std::vector<ProbeColumn> &columns;
       ResultsCsv                      csv;
     };
@@ -114,9 +141,16 @@ namespace isochor
     if (settings.inf_sup)
       result.inf_sup_at_rest = stability();
 
+    RunCheckpoints checkpoints(settings, discretisation);
+    const SavedRun earlier
+        = settings.restart ? checkpoints.load(state, result.warnings) : SavedRun();
+    for (std::size_t k = 0; k < earlier.seconds.size(); ++k)
+      stopwatch.add(static_cast<Phase>(k), earlier.seconds[k]);
+
     VtuSeries<dim> vtu(discretisation, scene.material, settings.folder);
-    StepTable      steps(settings, probes.columns());
-    const auto     measure = [&](const double load) {
+    vtu.resume(earlier.pictures);
+    StepTable  steps(settings, probes.columns(), earlier.march.report.load_steps);
+    const auto measure = [&](const double load) {
       equilibrium.residual(state, load, scratch, &reactions);
       return probes.measure(state, reactions, load);
     };
@@ -135,11 +169,27 @@ namespace isochor
         print_failed_step(load, report, next_step);
     };
     callbacks.interrupted = [&]() { return interrupted(communicator); };
+    callbacks.resumable   = [&](const MarchState &march) {
+      const auto scope = stopwatch.measure(Phase::output);
+      if (checkpoints.is_due())
+        checkpoints.save({march,
+                          vtu.written(),
+                          joined(earlier.linear, tangent_solver.statistics()),
+                          seconds_of(stopwatch),
+                          earlier.seconds_total + stopwatch.total(),
+                          peak_megabytes(communicator)});
+    };
 
     if (talks)
       print_step_header();
-    result.march = march_quasi_static(
-        equilibrium, tangent_solver, method.newton, method.stepping, callbacks, stopwatch, state);
+    result.march = march_quasi_static(equilibrium,
+                                      tangent_solver,
+                                      method.newton,
+                                      method.stepping,
+                                      callbacks,
+                                      stopwatch,
+                                      state,
+                                      earlier.march);
 
     {
       const auto scope    = stopwatch.measure(Phase::output);
@@ -153,16 +203,18 @@ namespace isochor
     }
     if (settings.inf_sup)
       result.inf_sup_at_end = stability();
-    result.status = run_status_names.name(result.march.status);
-    result.reason = result.march.reason;
-    result.linear = tangent_solver.statistics();
-    for (std::size_t k = 0; k < result.seconds.size(); ++k)
-      result.seconds[k]
-          = dealii::Utilities::MPI::max(stopwatch.seconds(static_cast<Phase>(k)), communicator);
-    result.seconds_total  = dealii::Utilities::MPI::max(stopwatch.total(), communicator);
-    result.peak_megabytes = peak_megabytes(communicator);
-    result.warnings
+    result.status  = run_status_names.name(result.march.status);
+    result.reason  = result.march.reason;
+    result.linear  = joined(earlier.linear, tangent_solver.statistics());
+    result.seconds = seconds_of(stopwatch);
+    for (double &seconds : result.seconds)
+      seconds = dealii::Utilities::MPI::max(seconds, communicator);
+    result.seconds_total
+        = earlier.seconds_total + dealii::Utilities::MPI::max(stopwatch.total(), communicator);
+    result.peak_megabytes = std::max(earlier.peak_megabytes, peak_megabytes(communicator));
+    const auto warnings
         = warnings_of(result, method.element, scene.material, trust_figures(equilibrium, state));
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     return result;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 namespace isochor
 {
@@ -19,10 +20,20 @@ namespace isochor
     /// The marker by which a results folder is known as ours.
     constexpr const char *parameters_file = "parameters.prm";
 
-    /// May results go there? What an earlier run left there goes only with @p overwrite. Rank 0 only.
-    void check_folder(const fs::path &folder, const bool overwrite)
+    /// May results go there? What an earlier run left there goes only with --overwrite, and stays
+    /// with --restart. Rank 0 only.
+    void check_folder(const fs::path &folder, const Invocation &invocation)
     {
+      const bool      overwrite = invocation.overwrite;
       std::error_code error;
+      if (invocation.restart)
+        {
+          if (!fs::exists(folder / parameters_file, error))
+            throw UserError("--restart: folder '" + folder.string()
+                            + "' holds no results of Isochor; run it from the start, without "
+                              "--restart");
+          return;
+        }
       if (!fs::exists(folder, error))
         return;
       if (!fs::is_directory(folder, error))
@@ -35,8 +46,8 @@ namespace isochor
         return;
       if (!overwrite)
         throw UserError("--output: folder '" + folder.string()
-                        + "' exists and is not empty; choose another with --output, or "
-                          "replace its results with --overwrite");
+                        + "' exists and is not empty; choose another with --output, replace its "
+                          "results with --overwrite, or go on with them with --restart");
       if (!fs::exists(folder / parameters_file, error))
         throw UserError("--overwrite: folder '" + folder.string()
                         + "' holds no results of Isochor; empty it yourself");
@@ -45,23 +56,24 @@ namespace isochor
     bool is_result(const std::string &name)
     {
       return name.starts_with("run_") || name.starts_with("solution") || name == "results.csv"
-             || name == "steps.csv" || name == parameters_file;
+             || name.starts_with("checkpoint_") || name == "steps.csv" || name == parameters_file;
     }
 
     /// Make @p folder, without the results of an earlier run, and put the parameters there. Rank 0
     /// only.
     void prepare_folder(const fs::path &folder, const Invocation &invocation)
     {
-      check_folder(folder, invocation.overwrite);
+      check_folder(folder, invocation);
       std::error_code error;
       fs::create_directories(folder, error);
       if (error)
         throw UserError("--output: folder '" + folder.string()
                         + "' cannot be made: " + error.message());
       std::vector<fs::path> old_results;
-      for (const auto &entry : fs::directory_iterator(folder))
-        if (is_result(entry.path().filename().string()))
-          old_results.push_back(entry.path());
+      if (!invocation.restart)
+        for (const auto &entry : fs::directory_iterator(folder))
+          if (is_result(entry.path().filename().string()))
+            old_results.push_back(entry.path());
       for (const fs::path &path : old_results)
         if (fs::remove_all(path, error); error)
           throw UserError("--overwrite: '" + path.string()
@@ -103,6 +115,38 @@ namespace isochor
       read_parameter_file(prm, invocation.file, overrides);
     }
 
+    /// "Section/Key" and value of all parameters of @p sections.
+    Identity values_of(dealii::ParameterHandler &prm, const std::vector<std::string> &sections)
+    {
+      std::stringstream text;
+      prm.print_parameters(text, dealii::ParameterHandler::ShortPRM);
+      Identity    values;
+      std::string line, section;
+      while (std::getline(text, line))
+        {
+          line = trim(line);
+          if (line.starts_with("subsection "))
+            section = line.substr(11);
+          else if (const auto equals = line.find('=');
+                   line.starts_with("set ") && std::ranges::count(sections, section) > 0)
+            values[section + "/" + trim(line.substr(4, equals - 4))]
+                = trim(line.substr(equals + 1));
+        }
+      return values;
+    }
+
+    /// What a state depends on: the scene and what discretises it. How it is solved may change.
+    Identity identity_of(dealii::ParameterHandler &prm)
+    {
+      Identity identity = values_of(prm, {"Scene", "Method"});
+      std::erase_if(identity, [](const auto &entry) {
+        return entry.first.starts_with("Method/") && entry.first != "Method/Element"
+               && entry.first != "Method/Stabilisation"
+               && entry.first != "Method/Compliance matrix";
+      });
+      return identity;
+    }
+
     template <int dim>
     RunResult
     run_planned(dealii::ParameterHandler &prm, const Invocation &invocation, RunSettings settings)
@@ -112,6 +156,8 @@ namespace isochor
       const auto output = OutputOptions::parse(prm);
       settings.vtu      = output.vtu;
       settings.inf_sup |= output.inf_sup;
+      settings.checkpoint_interval = output.checkpoint_interval;
+      settings.identity            = identity_of(prm);
       return run(scene, method, settings);
     }
 
@@ -140,6 +186,7 @@ namespace isochor
         , communicator(communicator)
         , on_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
         , talks(on_root && is_terminal())
+        , kept_rows(plan.runs.size())
         , results(plan.runs.size())
         , errors(plan.runs.size())
       {
@@ -147,6 +194,8 @@ namespace isochor
 
       ExitCode execute()
       {
+        if (invocation.restart)
+          keep_finished();
         if (plan.is_study())
           prepare();
         ExitCode code = ExitCode::converged;
@@ -157,7 +206,8 @@ namespace isochor
             if (talks && plan.is_study())
               print_bar(done, plan.order.size(), describe(planned.assignments));
 
-            results[index] = run_one(index);
+            if (kept_rows[index].empty())
+              results[index] = run_one(index);
             if (results[index].status == run_status_names.name(RunStatus::interrupted))
               interrupted_at = done;
             if (!results[index].converged())
@@ -168,6 +218,8 @@ namespace isochor
             write_ready_rows(done);
             if (interrupted_at)
               break;
+            if (results[index].converged())
+              Checkpoints(communicator, folder_of(index), {}).remove();
           }
         if (std::all_of(results.begin(), results.end(), [](const RunResult &result) {
               return result.status == refused;
@@ -190,20 +242,76 @@ namespace isochor
       }
 
     private:
+      /// Rows and results of the runs that have ended, from results.csv. A single run that did not
+      /// converge goes on: its method may have changed.
+      void keep_finished()
+      {
+        std::vector<ResultRow> rows;
+        on_root_collectively(communicator, [&]() {
+          if (plan.is_study())
+            check_parameters();
+          rows = read_results(folder / "results.csv");
+        });
+        rows = dealii::Utilities::MPI::broadcast(communicator, rows);
+        for (const ResultRow &row : rows)
+          for (std::size_t index = 0; index < plan.runs.size(); ++index)
+            if (row.back().second == folder_name(index))
+              {
+                RunResult  result = result_of_row(row);
+                const bool interrupted
+                    = result.status == run_status_names.name(RunStatus::interrupted);
+                if (!result.converged() && (interrupted || !plan.is_study()))
+                  continue;
+                if (!plan.is_study())
+                  throw UserError("--restart: the run in '" + folder.string() + "' is finished: "
+                                  + result.status + "; run it from the start with --overwrite");
+                kept_rows[index] = row;
+                results[index]   = std::move(result);
+              }
+        if (!plan.is_study() && Checkpoints(communicator, folder, {}).numbers().empty())
+          throw UserError("--restart: no state is saved in '" + folder.string()
+                          + "'; run it from the start with --overwrite");
+      }
+
+      /// Throws UserError if the folder holds another study.
+      void check_parameters() const
+      {
+        dealii::ParameterHandler now, then;
+        for (const auto &[prm, file, overrides] :
+             {std::tuple(&now, invocation.file, invocation.overrides),
+              std::tuple(&then, folder / parameters_file, std::vector<std::string>())})
+          {
+            declare_parameters(*prm);
+            read_parameter_file(*prm, file, overrides);
+          }
+        const std::vector<std::string> sections{"Scene", "Method", "Study"};
+        Identity                       before = values_of(then, sections);
+        for (const auto &[name, value] : values_of(now, sections))
+          if (before[name] != value)
+            throw UserError("--restart: '" + folder.string() + "' holds another study: " + name
+                            + " was '" + before[name] + "', is '" + value
+                            + "'; allowed: the same parameters, or a study from the start with "
+                              "--overwrite");
+      }
+
       void prepare()
       {
         on_root_collectively(communicator, [&]() { prepare_folder(folder, invocation); });
-        csv.emplace(communicator, folder / "results.csv");
+        std::vector<ResultRow> kept;
+        for (const std::size_t index : plan.order)
+          if (!kept_rows[index].empty())
+            kept.push_back(kept_rows[index]);
+        csv.emplace(communicator, folder / "results.csv", kept);
       }
 
       RunResult run_one(const std::size_t index)
       {
-        RunSettings settings{communicator, folder};
+        RunSettings settings{communicator, folder_of(index)};
         settings.show_steps = talks && !plan.is_study();
         settings.inf_sup    = invocation.inf_sup;
+        settings.restart    = invocation.restart;
         if (plan.is_study())
           {
-            settings.folder = folder / run_folder_name(index);
             on_root_collectively(communicator, [&]() { fs::create_directories(settings.folder); });
           }
         else // a mistake found before leaves no folder behind and removes no older results
@@ -241,15 +349,27 @@ namespace isochor
                                     finished(plan.runs[index].reference),
                                     finished(plan.runs[index].check),
                                     plan.reference_values);
-            csv->add(row(index));
+            if (kept_rows[index].empty())
+              csv->add(row(index));
           }
+      }
+
+      std::string folder_name(const std::size_t index) const
+      {
+        return plan.is_study() ? run_folder_name(index) : ".";
+      }
+      fs::path folder_of(const std::size_t index) const
+      {
+        return plan.is_study() ? folder / run_folder_name(index) : folder;
       }
 
       ResultRow row(const std::size_t index) const
       {
+        if (!kept_rows[index].empty())
+          return kept_rows[index];
         ResultRow row
             = result_row(plan, plan.runs[index], results[index], errors[index], probe_columns);
-        row.emplace_back("folder", plan.is_study() ? run_folder_name(index) : "."); // VTU files
+        row.emplace_back("folder", folder_name(index)); // VTU files
         return row;
       }
 
@@ -262,6 +382,8 @@ namespace isochor
           }
         if (plan.is_study())
           {
+            if (std::ranges::none_of(kept_rows, &ResultRow::empty))
+              std::cout << "all runs were finished already\n";
             std::cout << plan.title << "\n" << study_table(plan, results, errors, probe_columns);
             for (std::size_t k = 0; k < results.size(); ++k)
               {
@@ -285,7 +407,8 @@ namespace isochor
       const bool        on_root, talks;
 
       std::optional<ResultsCsv>  csv;
-      std::vector<RunResult>     results; ///< by index of the plan; status empty: not run
+      std::vector<ResultRow>     kept_rows; ///< by index of the plan; empty: none
+      std::vector<RunResult>     results;   ///< by index of the plan; status empty: not run
       std::vector<ProbeErrors>   errors;
       std::vector<ProbeColumn>   probe_columns;
       std::size_t                n_written = 0; ///< rows, in order of execution
@@ -338,7 +461,7 @@ namespace isochor
         return ExitCode::converged;
       }
     const fs::path folder = output;
-    on_root_collectively(communicator, [&]() { check_folder(folder, invocation.overwrite); });
+    on_root_collectively(communicator, [&]() { check_folder(folder, invocation); });
     return StudyRunner(invocation, plan, folder, communicator).execute();
   }
 } // namespace isochor

@@ -1,19 +1,9 @@
 """Runs that end before the full load: exit code 2, the reason, and valid files on disk."""
 
-import csv
-import os
 import signal
-import subprocess
-import tempfile
-import time
 import unittest
-import xml.etree.ElementTree as xml
-from pathlib import Path
 
-ISOCHOR = os.environ["ISOCHOR"]
-MPIRUN = [os.environ.get("MPIRUN", "mpirun"), "-q", "--oversubscribe", "--bind-to", "none"]
-if os.geteuid() == 0:
-    MPIRUN.append("--allow-run-as-root")
+from isochor_case import IsochorCase
 
 SCENE = """
 subsection Scene
@@ -33,52 +23,12 @@ end
 SLOW = SCENE.format(cells="24, 4, 4", traction="0, -100, 0", steps=2000)
 
 
-class Endings(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.out = self.folder / "out"
-
-    def start(self, text, *arguments, ranks=1):
-        (self.folder / "scene.prm").write_text(text)
-        command = [*MPIRUN, "-np", str(ranks)] if ranks > 1 else []
-        environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-        process = subprocess.Popen(
-            [*command, ISOCHOR, "scene.prm", "--output", "out", *arguments], cwd=self.folder,
-            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.kill)
-        return process
-
-    def finish(self, process, code):
-        out, err = process.communicate(timeout=300)
-        self.assertEqual(process.returncode, code, out + err)
-        return out + err
-
-    def check_files(self, status):
-        """One row with this status, and a series whose every state is there and can be read."""
-        with open(self.out / "results.csv", newline="") as stream:
-            rows = list(csv.DictReader(stream))
-        self.assertEqual([row["status"] for row in rows], [status])
-        series = xml.parse(self.out / "solution.pvd").getroot()
-        files = [entry.get("file") for entry in series.iter("DataSet")]
-        self.assertTrue(files)
-        for name in files:
-            if name.endswith(".pvtu"):
-                xml.parse(self.out / name)
-            self.assertGreater((self.out / name).stat().st_size, 0)
-        with open(self.out / "steps.csv", newline="") as stream:
-            steps = list(csv.DictReader(stream))
-        self.assertEqual(len(steps), int(rows[0]["load steps"]))
-        if steps:
-            self.assertEqual(steps[-1]["load factor"], rows[0]["load factor"])
-        return rows[0]
-
+class Endings(IsochorCase):
     def test_load_far_too_big(self):
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
                 text = SCENE.format(cells="6, 1, 1", traction="-1e9, 0, 0", steps=1)
-                told = self.finish(self.start(text, "--overwrite", ranks=ranks), 2)
+                told = self.run_isochor(text, "--overwrite", ranks=ranks, code=2)
                 self.assertIn("not converged: step below minimum: from load factor", told)
                 row = self.check_files("not converged")
                 self.assertIn("step below minimum", row["reason"])
@@ -86,12 +36,7 @@ class Endings(unittest.TestCase):
 
     def interrupt(self, ranks, code):
         process = self.start(SLOW, ranks=ranks)
-        deadline = time.monotonic() + 120
-        steps = self.out / "steps.csv"
-        while not steps.exists() or len(steps.read_text().splitlines()) < 4:
-            self.assertIsNone(process.poll(), "the run ended before it could be interrupted")
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.05)
+        self.wait_for_steps(process, 3)
         process.send_signal(signal.SIGINT)
         told = self.finish(process, code)
         row = self.check_files("interrupted")
@@ -107,23 +52,23 @@ class Endings(unittest.TestCase):
 
     def test_bad_input_keeps_old_results(self):
         text = SCENE.format(cells="2, 1, 1", traction="0, -1, 0", steps=1)
-        self.finish(self.start(text), 0)
+        self.run_isochor(text)
         before = {path.name: path.read_bytes() for path in self.out.iterdir()}
-        told = self.finish(self.start(text, "--overwrite", "--set", "Scene/Fixed=links"), 1)
+        told = self.run_isochor(text, "--overwrite", "--set", "Scene/Fixed=links", code=1)
         self.assertIn("no boundary is named 'links'", told)
         self.assertEqual({path.name: path.read_bytes() for path in self.out.iterdir()}, before)
 
     def test_overwrite_keeps_what_is_not_ours(self):
         text = SCENE.format(cells="2, 1, 1", traction="0, -1, 0", steps=1)
-        self.finish(self.start(text), 0)
+        self.run_isochor(text)
         (self.out / "notes.txt").write_text("mine")
-        self.finish(self.start(text, "--overwrite"), 0)
+        self.run_isochor(text, "--overwrite")
         self.assertEqual((self.out / "notes.txt").read_text(), "mine")
         self.check_files("converged")
 
     def test_bad_input_makes_no_folder(self):
         text = SCENE.format(cells="2, 1, 1", traction="0, -1, 0", steps=1)
-        self.finish(self.start(text.replace("left", "links")), 1)
+        self.run_isochor(text.replace("left", "links"), code=1)
         self.assertFalse(self.out.exists())
 
 

@@ -48,6 +48,14 @@ namespace isochor
     ResidualSize size;                  ///< at the last converged state
   };
 
+  /// Between two load steps: what the march needs to go on from there.
+  struct MarchState
+  {
+    MarchReport report;        ///< so far; its load is that of `state`
+    double      next_step = 0; ///< of the load factor; 0: as long as the options say
+    Vector      state;         ///< last converged; empty: the march begins at the state it is given
+  };
+
   struct MarchCallbacks
   {
     /// After each converged step, with the state.
@@ -56,9 +64,13 @@ namespace isochor
     std::function<void(double load, const NewtonReport &, double next_step)> failed;
     /// Asks to stop.
     std::function<bool()> interrupted;
+    /// After each converged step but the last: from there the march can go on another time. May
+    /// be empty.
+    std::function<void(const MarchState &)> resumable;
   };
 
-  /// @p state: start, usually zero; afterwards the last converged state. Collective.
+  /// @p state: start, usually zero; afterwards the last converged state. @p begin: where an
+  /// earlier march was left. Collective.
   template <int dim>
   MarchReport march_quasi_static(const Equilibrium<dim> &equilibrium,
                                  TangentSolver<dim>     &tangent_solver,
@@ -66,5 +78,6 @@ namespace isochor
                                  const SteppingOptions  &stepping,
                                  const MarchCallbacks   &callbacks,
                                  Stopwatch              &stopwatch,
-                                 Vector                 &state);
+                                 Vector                 &state,
+                                 const MarchState       &begin = {});
 } // namespace isochor

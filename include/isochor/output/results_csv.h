@@ -16,14 +16,21 @@ namespace isochor
   /// Column name and text of the value, in order.
   using ResultRow = std::vector<std::pair<std::string, std::string>>;
 
+  /// The rows of @p file, whole lines only: what a killed program left of its last row is dropped.
+  /// None if there is no file. Reads on this rank only.
+  std::vector<ResultRow> read_results(const std::filesystem::path &file);
+
   /// At most 10 significant digits, as "%.10g" prints it with a decimal point in any locale.
   std::string csv_number(double value);
 
   class ResultsCsv
   {
   public:
-    /// Creates the file, empty, on rank 0. Throws UserError naming it. Collective.
-    ResultsCsv(MPI_Comm communicator, std::filesystem::path file);
+    /// Creates the file with the rows @p kept on rank 0 (only its rows count); an older file is
+    /// there until then. Throws UserError naming it. Collective.
+    ResultsCsv(MPI_Comm                      communicator,
+               std::filesystem::path         file,
+               const std::vector<ResultRow> &kept = {});
 
     /// Append a row; the first one makes the header, and later ones must have its columns
     /// (std::runtime_error). On disk when this returns. Texts are quoted by RFC 4180 where they
@@ -40,7 +47,8 @@ namespace isochor
       }
     };
 
-    void write(const std::string &text);
+    /// Lines of @p row, with the header if it is the first one.
+    std::string lines(const ResultRow &row);
 
     MPI_Comm                          communicator;
     std::filesystem::path             file;

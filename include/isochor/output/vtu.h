@@ -32,6 +32,16 @@ namespace isochor
     /// that cannot be written. Collective.
     void write(const Vector &state, double load, unsigned int number);
 
+    /// Load factors and files of the calls so far, and how to go on from them in a later run.
+    const std::vector<std::pair<double, std::string>> &written() const
+    {
+      return written_;
+    }
+    void resume(const std::vector<std::pair<double, std::string>> &earlier)
+    {
+      written_ = earlier;
+    }
+
     /// What the next file would hold: one patch per owned cell, data rows u_x, u_y, (u_z,) p, J,
     /// von Mises stress, then the positions; columns are the vertices, then the edge midpoints
     /// in VTK's order. @p state with ghosts.
@@ -45,7 +55,7 @@ namespace isochor
     typename CellFields<dim>::Points            points;
     const std::filesystem::path                 folder;
     std::unique_ptr<Writer>                     writer;
-    std::vector<unsigned int>                   n_cells; ///< of each rank
-    std::vector<std::pair<double, std::string>> written; ///< load factor, file
+    std::vector<unsigned int>                   n_cells;  ///< of each rank
+    std::vector<std::pair<double, std::string>> written_; ///< load factor, file
   };
 } // namespace isochor

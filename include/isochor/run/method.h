@@ -39,6 +39,8 @@ namespace isochor
     std::string folder; ///< empty: results/<stem of the parameter file>
     VtuOutput   vtu     = VtuOutput::every_step;
     bool        inf_sup = false; ///< test the pressure's stability
+    /// Seconds that lie at least between two saved states; none: nothing is saved.
+    std::optional<double> checkpoint_interval = 0.;
 
     static void          declare(dealii::ParameterHandler &prm);
     static OutputOptions parse(dealii::ParameterHandler &prm);

@@ -29,6 +29,9 @@ namespace isochor
                        const ProbeErrors              &errors,
                        const std::vector<ProbeColumn> &probe_columns);
 
+  /// What tables and comparisons need of the result that @p row of results.csv tells of.
+  RunResult result_of_row(const ResultRow &row);
+
   /// The final console table.
   std::string study_table(const StudyPlan                &plan,
                           const std::vector<RunResult>   &results,

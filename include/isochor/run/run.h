@@ -5,6 +5,7 @@
 #include <isochor/measure/inf_sup.h>
 #include <isochor/measure/probes.h>
 #include <isochor/mesh/raw_mesh.h>
+#include <isochor/output/checkpoints.h>
 #include <isochor/run/method.h>
 
 #include <filesystem>
@@ -43,9 +44,12 @@ namespace isochor
     MPI_Comm              communicator;
     std::filesystem::path folder; ///< for VTU files and steps.csv; exists
     VtuOutput             vtu        = VtuOutput::every_step;
-    bool                  check_only = false; ///< everything up to the first load step
-    bool                  inf_sup    = false; ///< test at rest and in the final state
-    bool                  show_steps = false; ///< a line per load step on std::cout of rank 0
+    bool                  check_only = false;       ///< everything up to the first load step
+    bool                  inf_sup    = false;       ///< test at rest and in the final state
+    bool                  show_steps = false;       ///< a line per load step on std::cout of rank 0
+    std::optional<double> checkpoint_interval = 0.; ///< as in OutputOptions
+    bool                  restart  = false; ///< go on from the last saved state, if there is one
+    Identity              identity = {};    ///< the parameters that a saved state depends on
     /// Called when the input has proved good, before anything is written. Collective.
     std::function<void()> before_output = [] {};
   };

@@ -15,6 +15,7 @@ namespace isochor
     std::vector<std::string> overrides; ///< "Section/Key=value"
     std::string              output;    ///< folder; empty: as the file says
     bool                     overwrite  = false;
+    bool                     restart    = false; ///< go on where an interruption ended it
     bool                     check_only = false;
     bool                     inf_sup    = false;
   };
