@@ -1,6 +1,7 @@
 #include <isochor/core/error.h>
 #include <isochor/element/cell_quadrature.h>
 #include <isochor/measure/probes.h>
+#include <isochor/space/point_location.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,50 +18,6 @@ namespace isochor
     dealii::Tensor<1, dim> sum_over_ranks(const dealii::Tensor<1, dim> &mine, MPI_Comm communicator)
     {
       return dealii::Utilities::MPI::sum(mine, communicator);
-    }
-    /// Is @p point near the geometry nodes of the cell?
-    template <int dim>
-    bool
-    may_hold(const CellTables<dim> &cells, const std::size_t cell, const dealii::Point<dim> &point)
-    {
-      double extent = 0;
-      for (unsigned int i = 1; i < cells.n_g; ++i)
-        extent = std::max(extent, cells.vertex(cell, i).distance(cells.vertex(cell, 0)));
-      return point.distance(cells.vertex(cell, 0)) <= 2. * extent;
-    }
-
-    /// Where in the reference cell @p point is, by Newton's method; exact after one step if the cell
-    /// is affine. Far away if the iteration leaves the cell.
-    template <int dim>
-    dealii::Point<dim> reference_point(const CellTables<dim>    &cells,
-                                       const std::size_t         cell,
-                                       const dealii::Point<dim> &point)
-    {
-      auto xi = reference_centre<dim>(cells.kind);
-      for (unsigned int iteration = 0; iteration < 20; ++iteration)
-        {
-          const dealii::Tensor<1, dim> step
-              = cells.map(cell, xi).inverse * (point - cells.position(cell, xi));
-          xi += step;
-          if (cells.is_affine[cell] || step.norm() < 1e-12 || !(xi.norm() < 10))
-            break;
-        }
-      return xi;
-    }
-
-    /// Distance from the nearest side of the reference cell, by its coordinates; negative outside.
-    template <int dim>
-    double depth(const CellKind kind, const dealii::Point<dim> &xi)
-    {
-      double least = 1., sum = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          least = std::min(least, xi[d]);
-          sum += xi[d];
-          if (kind == CellKind::hypercube)
-            least = std::min(least, 1. - xi[d]);
-        }
-      return kind == CellKind::simplex ? std::min(least, 1. - sum) : least;
     }
   } // namespace
 
@@ -132,24 +89,9 @@ namespace isochor
   template <int dim>
   void Probes<dim>::locate(Probe &probe) const
   {
-    // The owned cell that the point is deepest in; over all ranks the best one answers.
-    const CellTables<dim> &cells     = discretisation.cells;
-    double                 best      = -std::numeric_limits<double>::max();
-    LocalIndex             best_cell = 0;
-    dealii::Point<dim>     best_xi;
-    for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
-      {
-        if (!may_hold(cells, cell, *probe.request.point))
-          continue;
-        const auto   xi     = reference_point(cells, cell, *probe.request.point);
-        const double inside = depth(cells.kind, xi);
-        if (inside > best)
-          {
-            best      = inside;
-            best_cell = cell;
-            best_xi   = xi;
-          }
-      }
+    // Over all ranks the one whose cell the point is deepest in answers.
+    const auto     place = PointLocation<dim>(discretisation.cells).locate(*probe.request.point);
+    const double   best  = place ? place->depth : -std::numeric_limits<double>::max();
     const MPI_Comm communicator = discretisation.communicator();
     const double   best_of_all  = dealii::Utilities::MPI::max(best, communicator);
     if (best_of_all < -1e-6)
@@ -161,7 +103,7 @@ namespace isochor
         best == best_of_all ? rank : dealii::Utilities::MPI::n_mpi_processes(communicator),
         communicator);
     if (rank == answering)
-      probe.place = {best_cell, best_xi};
+      probe.place = {place->cell, place->xi};
   }
 
   template <int dim>

@@ -114,6 +114,14 @@ namespace isochor
                       "as the preconditioner of FGMRES. direct: MUMPS' LDL^T in double precision, "
                       "anew in every iteration. UMFPACK: LU, likewise, one rank. All but UMFPACK "
                       "count negative pivots. automatic: kept.");
+    prm.declare_entry(
+        "Nested levels",
+        "0",
+        dealii::Patterns::Integer(0, 10),
+        "Number of coarser meshes, each with twice the edge length (half the blocks) "
+        "of the next one, that are solved on first: the equilibrium at the full load, "
+        "interpolated, is where Newton's method begins on the mesh itself. Where that "
+        "fails, load stepping begins from rest. No unit.");
     SteppingOptions::declare(prm);
     NewtonOptions::declare(prm);
     prm.leave_subsection();
@@ -123,6 +131,7 @@ namespace isochor
   {
     prm.enter_subsection("Method");
     Method method{find_element(prm.get("Element"), "Method/Element"), {}, {}, {}, {}};
+    method.nested_levels     = prm.get_integer("Nested levels");
     method.compliance.lumped = prm.get("Compliance matrix") == lumped;
     method.compliance.stabilisation
         = parse_number(prm.get("Stabilisation"), "Method/Stabilisation");

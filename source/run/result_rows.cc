@@ -98,6 +98,7 @@ namespace isochor
     add("load steps", std::to_string(result.march.load_steps));
     add("failed steps", std::to_string(result.march.failed_steps));
     add("newton iterations", std::to_string(result.march.newton_iterations));
+    add("coarse newton iterations", std::to_string(result.coarse_newton_iterations));
     add("factorisations", std::to_string(result.linear.factorisations));
     add("krylov iterations", std::to_string(result.linear.krylov_iterations));
     for (std::size_t k = 0; k < result.seconds.size(); ++k)
@@ -230,9 +231,12 @@ namespace isochor
     out << "volume ratio       " << number(result.volume_ratio, "%.6f") << ", min J "
         << number(result.march.size.min_jacobian) << '\n'
         << "load steps         " << result.march.load_steps << " (" << result.march.failed_steps
-        << " failed), Newton iterations " << result.march.newton_iterations << ", factorisations "
-        << result.linear.factorisations << ", Krylov iterations " << result.linear.krylov_iterations
-        << '\n';
+        << " failed), Newton iterations " << result.march.newton_iterations
+        << (result.coarse_newton_iterations > 0
+                ? " and " + std::to_string(result.coarse_newton_iterations) + " on coarser meshes"
+                : "")
+        << ", factorisations " << result.linear.factorisations << ", Krylov iterations "
+        << result.linear.krylov_iterations << '\n';
     if (result.linear.pivot_excess)
       out << "negative pivots    " << *result.linear.pivot_excess
           << " more than pressure unknowns\n";

@@ -1,10 +1,12 @@
-#include <isochor/mesh/mesh.h>
+#include <isochor/core/text.h>
 #include <isochor/output/results_csv.h>
 #include <isochor/output/vtu.h>
 #include <isochor/run/interrupt.h>
+#include <isochor/run/nested.h>
 #include <isochor/run/progress.h>
 #include <isochor/run/saved_run.h>
 #include <isochor/run/warnings.h>
+#include <isochor/space/interpolation.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -26,6 +28,65 @@ namespace isochor
       dealii::Utilities::System::MemoryStats memory;
       dealii::Utilities::System::get_memory_stats(memory);
       return dealii::Utilities::MPI::max(memory.VmHWM / 1024., communicator);
+    }
+
+    /// What the scene begins with, the supports where they are before any load. Throws UserError
+    /// if it inverts cells.
+    template <int dim>
+    Vector initial_state(const Scene<dim> &scene, const Equilibrium<dim> &equilibrium)
+    {
+      Vector state = equilibrium.discretisation().make_vector();
+      if (scene.initial_displacement.empty())
+        {
+          state.update_ghost_values();
+          return state;
+        }
+      collectively(state.get_mpi_communicator(), [&]() {
+        set_displacements<dim>(
+            equilibrium.discretisation(),
+            [&](const dealii::Point<dim> &position) {
+              dealii::Tensor<1, dim> u;
+              for (unsigned int d = 0; d < dim; ++d)
+                u[d] = scene.initial_displacement[d].value(position, 0.);
+              return u;
+            },
+            state);
+      });
+      Vector scratch(state);
+      equilibrium.prescribed().gap(state, 0., scratch);
+      state += scratch;
+      const double min_jacobian = equilibrium.residual(state, 0., scratch).min_jacobian;
+      if (!equilibrium.is_linear() && !(min_jacobian > 0.))
+        throw UserError("Scene/Initial displacement: it flattens or inverts cells (min J "
+                        + to_text(min_jacobian)
+                        + "); allowed: a displacement that keeps every J above 0, the supports "
+                          "being where they are before any load");
+      return state;
+    }
+
+    /// Throws UserError if the supports turn by more than half a turn in the first load step: that
+    /// would be taken for the shorter way round, and a full turn for none.
+    template <int dim>
+    void check_turns(const Equilibrium<dim> &equilibrium, const unsigned int load_steps)
+    {
+      const Vector rest = equilibrium.discretisation().make_vector();
+      Vector       displacement(rest);
+      const auto   size = [&](const double load) {
+        equilibrium.prescribed().gap(rest, load, displacement);
+        return displacement.l2_norm();
+      };
+      // Chords of a circle: at half a turn, that of half the way is 1 / sqrt(2) of the whole.
+      const auto is_followed
+          = [&](const double step) { return size(0.5 * step) <= 0.7072 * size(step); };
+      if (size(0.5) == 0. || is_followed(1. / load_steps))
+        return;
+      unsigned int enough = load_steps + 1;
+      while (enough < 1000 && !is_followed(1. / enough))
+        ++enough;
+      throw UserError("Method/Load steps: within the first of " + std::to_string(load_steps)
+                      + " the prescribed displacements turn by more than half a turn, or come back "
+                        "to where they were; allowed for this scene: at least "
+                      + std::to_string(enough));
     }
 
     /// Of this rank, by phase.
@@ -90,6 +151,7 @@ namespace isochor
         = settings.show_steps && dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
     check_legal(method, scene.material, dealii::Utilities::MPI::n_mpi_processes(communicator));
     check_loads_against_supports(scene);
+    check_nested(scene.mesh, method.nested_levels);
     reset_peak_memory();
 
     Stopwatch stopwatch;
@@ -97,12 +159,8 @@ namespace isochor
 
     std::unique_ptr<Mesh<dim>> mesh;
     {
-      const auto  scope   = stopwatch.measure(Phase::mesh);
-      MeshRequest request = scene.mesh;
-      request.kind        = method.element.kind;
-      // A linear displacement on a quadratic cell would not even hold a linear field.
-      request.geometry_order = std::min(request.geometry_order, method.element.displacement.degree);
-      mesh                   = make_mesh<dim>(request, communicator);
+      const auto scope = stopwatch.measure(Phase::mesh);
+      mesh             = make_mesh_for(scene, method, communicator);
     }
     result.quality         = mesh->quality;
     const auto boundary_id = [&](const std::string &name, const std::string &what) {
@@ -117,6 +175,8 @@ namespace isochor
     result.cells         = discretisation.n_cells;
     result.unknowns      = discretisation.n_unknowns();
     result.probe_columns = probes.columns();
+    check_turns(equilibrium, method.stepping.load_steps);
+    Vector state = initial_state(scene, equilibrium);
     if (talks)
       print_summary(result, std::string(method.element.name));
     if (settings.check_only)
@@ -127,19 +187,21 @@ namespace isochor
     settings.before_output();
 
     TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
-    Vector             state = discretisation.make_vector(), scratch(state), reactions(state);
-    state.update_ghost_values();
+    Vector             scratch(state.get_partitioner()), reactions(scratch);
 
-    const auto stability = [&]() {
+    const auto stability = [&](const Vector &at) {
       const auto scope = stopwatch.measure(Phase::output);
       return inf_sup(discretisation,
                      equilibrium.prescribed(),
                      scene.material.volumetric_strain,
                      method.compliance.stabilisation,
-                     state);
+                     at);
     };
     if (settings.inf_sup)
-      result.inf_sup_at_rest = stability();
+      {
+        scratch.update_ghost_values();
+        result.inf_sup_at_rest = stability(scratch); // zero
+      }
 
     RunCheckpoints checkpoints(settings, discretisation);
     const SavedRun earlier
@@ -182,14 +244,24 @@ namespace isochor
 
     if (talks)
       print_step_header();
-    result.march = march_quasi_static(equilibrium,
-                                      tangent_solver,
-                                      method.newton,
-                                      method.stepping,
-                                      callbacks,
-                                      stopwatch,
-                                      state,
-                                      earlier.march);
+    // A run that was interrupted is past its beginning.
+    NestedReport nested;
+    if (method.nested_levels > 0 && earlier.march.report.load_steps == 0
+        && begin_coarse(
+            scene, method, equilibrium, callbacks.interrupted, stopwatch, nested, state))
+      result.march = march_from_guess(
+          equilibrium, tangent_solver, method, callbacks, stopwatch, nested.remarks, state);
+    else
+      result.march = march_quasi_static(equilibrium,
+                                        tangent_solver,
+                                        method.newton,
+                                        method.stepping,
+                                        callbacks,
+                                        stopwatch,
+                                        state,
+                                        earlier.march);
+    result.coarse_newton_iterations = nested.newton_iterations;
+    result.warnings.insert(result.warnings.end(), nested.remarks.begin(), nested.remarks.end());
 
     {
       const auto scope    = stopwatch.measure(Phase::output);
@@ -202,10 +274,10 @@ namespace isochor
       result.oscillation  = pressure_oscillation(discretisation, state);
     }
     if (settings.inf_sup)
-      result.inf_sup_at_end = stability();
+      result.inf_sup_at_end = stability(state);
     result.status  = run_status_names.name(result.march.status);
     result.reason  = result.march.reason;
-    result.linear  = joined(earlier.linear, tangent_solver.statistics());
+    result.linear  = joined(joined(nested.linear, earlier.linear), tangent_solver.statistics());
     result.seconds = seconds_of(stopwatch);
     for (double &seconds : result.seconds)
       seconds = dealii::Utilities::MPI::max(seconds, communicator);

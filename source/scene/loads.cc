@@ -10,6 +10,7 @@ namespace isochor::scene_parts
     constexpr const char *body_force_key = "Body force";
     constexpr const char *traction_key   = "Traction";
     constexpr const char *pressure_key   = "Pressure";
+    constexpr const char *initial_key    = "Initial displacement";
 
     /// One formula per direction. @p form is what is allowed.
     template <int dim>
@@ -58,6 +59,14 @@ namespace isochor::scene_parts
                       "separated by semicolons; the formula in x, y, z (reference position, m) and "
                       "load is additionally multiplied by the load factor. Default: none. Example: "
                       "inner: 10e3");
+    prm.declare_entry(initial_key,
+                      "",
+                      Patterns::Anything(),
+                      "Displacement in m that the first load step begins with: UX, UY, UZ (2D: UX, "
+                      "UY), formulas in x, y, z (reference position, m); where the body is held, "
+                      "the supports count. It chooses between several equilibria (which way a "
+                      "column buckles) and changes nothing where there is one. Default: none, the "
+                      "body at rest. Example: 0, 1e-3*x^2, 0");
   }
 
   template <int dim>
@@ -71,6 +80,12 @@ namespace isochor::scene_parts
           = parse_formulas<dim>(force,
                                 std::string("Scene/") + body_force_key,
                                 dim == 2 ? "FX, FY with formulas" : "FX, FY, FZ with formulas");
+
+    if (const std::string initial = trim(prm.get(initial_key)); !initial.empty())
+      scene.initial_displacement
+          = parse_formulas<dim>(initial,
+                                std::string("Scene/") + initial_key,
+                                dim == 2 ? "UX, UY with formulas" : "UX, UY, UZ with formulas");
 
     const std::string form
         = dim == 2 ? "BOUNDARY: TX, TY with formulas" : "BOUNDARY: TX, TY, TZ with formulas";

@@ -11,9 +11,7 @@ import xml.etree.ElementTree as xml
 from pathlib import Path
 
 ISOCHOR = os.environ["ISOCHOR"]
-# An interrupted mpirun gives its ranks a second to end, which is too little on a busy machine.
-MPIRUN = [os.environ.get("MPIRUN", "mpirun"), "-q", "--oversubscribe", "--bind-to", "none",
-          "--mca", "odls_base_sigkill_timeout", "200"]
+MPIRUN = [os.environ.get("MPIRUN", "mpirun"), "-q", "--oversubscribe", "--bind-to", "none"]
 if os.geteuid() == 0:
     MPIRUN.append("--allow-run-as-root")
 
@@ -30,15 +28,15 @@ class IsochorCase(unittest.TestCase):
         self.folder = Path(folder.name)
         self.out = self.folder / "out"
 
-    def start(self, text, *arguments, ranks=1, out="out"):
-        """The running program, the leader of a process group of its own."""
+    def start(self, text, *arguments, ranks=1, out=None, mpirun=()):
+        """The running program."""
         (self.folder / "scene.prm").write_text(text)
-        command = [*MPIRUN, "-np", str(ranks)] if ranks > 1 else []
+        command = [*MPIRUN, *mpirun, "-np", str(ranks)] if ranks > 1 else []
         environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
         process = subprocess.Popen(
-            [*command, ISOCHOR, "scene.prm", "--output", out, *arguments], cwd=self.folder,
-            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-            start_new_session=True)
+            [*command, ISOCHOR, "scene.prm", "--output", out or self.out, *arguments],
+            cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            text=True)
         self.addCleanup(self.kill, process)
         return process
 

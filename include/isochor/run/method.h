@@ -15,6 +15,7 @@ namespace isochor
     LinearOptions     linear;
     NewtonOptions     newton;
     SteppingOptions   stepping;
+    unsigned int      nested_levels = 0; ///< coarser meshes that are solved on first
 
     static void   declare(dealii::ParameterHandler &prm);
     static Method parse(dealii::ParameterHandler &prm);

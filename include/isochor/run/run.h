@@ -21,6 +21,7 @@ namespace isochor
 
     GlobalIndex                                      cells = 0, unknowns = 0;
     MarchReport                                      march;
+    unsigned int                                     coarse_newton_iterations = 0;
     LinearStatistics                                 linear;
     std::array<double, std::size_t(Phase::n_phases)> seconds{};
     double                                           seconds_total  = 0;

@@ -94,7 +94,9 @@ namespace isochor
     std::vector<Support<dim>> supports;
     dealii::Tensor<1, dim>    gravity; ///< m/s^2, multiplied by the load factor
     /// N/m^3 of reference volume, multiplied by the load factor: dim formulas, or none.
-    std::vector<Expression<dim>>   body_force;
+    std::vector<Expression<dim>> body_force;
+    /// m, where Newton's method begins: dim formulas, or none for a body at rest.
+    std::vector<Expression<dim>>   initial_displacement;
     std::vector<Traction<dim>>     tractions;
     std::vector<Pressure<dim>>     pressures;
     std::vector<ProbeRequest<dim>> probes;

@@ -1,0 +1,171 @@
+#include <isochor/core/text.h>
+#include <isochor/mesh/generator.h>
+#include <isochor/run/nested.h>
+#include <isochor/run/saved_run.h>
+#include <isochor/space/interpolation.h>
+
+#include <algorithm>
+
+namespace isochor
+{
+  namespace
+  {
+    // Newton's tolerance on the coarse meshes: far below what interpolation leaves.
+    constexpr double coarse_tolerance = 1e-4;
+
+    MeshRequest coarser(MeshRequest request)
+    {
+      request.size *= 2.;
+      for (unsigned int &blocks : request.cells)
+        blocks = std::max(1u, blocks / 2);
+      return request;
+    }
+  } // namespace
+
+  void check_nested(const MeshRequest &request, const unsigned int levels)
+  {
+    const bool is_file = !is_generator(request.source);
+    if (levels > 0 && is_file && (request.source.ends_with(".msh") || !(request.size > 0)))
+      throw UserError(
+          "Method/Nested levels: the mesh '" + request.source
+          + "' cannot be made coarser; allowed: 0, or a generator or a .geo file with a "
+            "Scene/Mesh size");
+  }
+
+  template <int dim>
+  std::unique_ptr<Mesh<dim>>
+  make_mesh_for(const Scene<dim> &scene, const Method &method, MPI_Comm communicator)
+  {
+    MeshRequest request = scene.mesh;
+    request.kind        = method.element.kind;
+    // A linear displacement on a quadratic cell would not even hold a linear field.
+    request.geometry_order = std::min(request.geometry_order, method.element.displacement.degree);
+    return make_mesh<dim>(request, communicator);
+  }
+
+  template <int dim>
+  bool begin_coarse(const Scene<dim>            &fine_scene,
+                    const Method                &fine_method,
+                    const Equilibrium<dim>      &fine,
+                    const std::function<bool()> &interrupted,
+                    Stopwatch                   &stopwatch,
+                    NestedReport                &report,
+                    Vector                      &state)
+  {
+    Scene<dim> scene = fine_scene;
+    scene.mesh       = coarser(scene.mesh);
+    Method method    = fine_method;
+    --method.nested_levels;
+    method.newton.tolerance = std::max(method.newton.tolerance, coarse_tolerance);
+
+    std::unique_ptr<Mesh<dim>> mesh;
+    {
+      const auto scope = stopwatch.measure(Phase::mesh);
+      mesh             = make_mesh_for(scene, method, state.get_mpi_communicator());
+    }
+    std::optional<Stopwatch::Scope> setup(std::in_place, stopwatch, Phase::setup);
+    const Discretisation<dim> discretisation(mesh->triangulation, method.element, mesh->geometry);
+    const Equilibrium<dim>    equilibrium(
+        discretisation,
+        scene,
+        [&](const std::string &name, const std::string &what) {
+          return mesh->boundary_id(name, what);
+        },
+        method.compliance);
+    setup.reset();
+
+    TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
+    MarchCallbacks     callbacks;
+    callbacks.converged   = [](const LoadStep &, const Vector &) {};
+    callbacks.failed      = [](double, const NewtonReport &, double) {};
+    callbacks.interrupted = interrupted;
+    Vector coarse_state   = discretisation.make_vector();
+    coarse_state.update_ghost_values();
+
+    MarchReport march;
+    if (method.nested_levels > 0
+        && begin_coarse(scene, method, equilibrium, interrupted, stopwatch, report, coarse_state))
+      march = march_from_guess(
+          equilibrium, tangent_solver, method, callbacks, stopwatch, report.remarks, coarse_state);
+    else
+      march = march_quasi_static(equilibrium,
+                                 tangent_solver,
+                                 method.newton,
+                                 method.stepping,
+                                 callbacks,
+                                 stopwatch,
+                                 coarse_state);
+    report.newton_iterations += march.newton_iterations;
+    report.linear = joined(report.linear, tangent_solver.statistics());
+    if (march.status != RunStatus::converged)
+      {
+        report.remarks.push_back("nested iteration: no equilibrium on the mesh of "
+                                 + std::to_string(discretisation.n_cells) + " cells ("
+                                 + march.reason + "); begun from rest");
+        return false;
+      }
+
+    const auto scope = stopwatch.measure(Phase::setup);
+    interpolate(discretisation, coarse_state, fine.discretisation(), state);
+    Vector gap(state);
+    fine.prescribed().gap(state, 1., gap);
+    state += gap;
+    state.update_ghost_values();
+    return true;
+  }
+
+  template <int dim>
+  MarchReport march_from_guess(const Equilibrium<dim>   &equilibrium,
+                               TangentSolver<dim>       &tangent_solver,
+                               const Method             &method,
+                               const MarchCallbacks     &callbacks,
+                               Stopwatch                &stopwatch,
+                               std::vector<std::string> &remarks,
+                               Vector                   &state)
+  {
+    SteppingOptions one_step = method.stepping;
+    one_step.load_steps      = 1;
+    one_step.minimum_step    = 1.;
+    const MarchReport report = march_quasi_static(
+        equilibrium, tangent_solver, method.newton, one_step, callbacks, stopwatch, state);
+    if (report.status != RunStatus::not_converged)
+      return report;
+
+    remarks.push_back(
+        "nested iteration: the interpolated state led to no equilibrium on the mesh of "
+        + std::to_string(equilibrium.discretisation().n_cells) + " cells; begun from rest");
+    state = 0.;
+    state.update_ghost_values();
+    MarchState begin;
+    begin.report.failed_steps      = report.failed_steps;
+    begin.report.newton_iterations = report.newton_iterations;
+    return march_quasi_static(equilibrium,
+                              tangent_solver,
+                              method.newton,
+                              method.stepping,
+                              callbacks,
+                              stopwatch,
+                              state,
+                              begin);
+  }
+
+#define INSTANTIATE(dim)                                                                           \
+  template std::unique_ptr<Mesh<dim>> make_mesh_for(const Scene<dim> &, const Method &, MPI_Comm); \
+  template bool                       begin_coarse(const Scene<dim> &,                             \
+                                                   const Method &,                                 \
+                                                   const Equilibrium<dim> &,                       \
+                                                   const std::function<bool()> &,                  \
+                                                   Stopwatch &,                                    \
+                                                   NestedReport &,                                 \
+                                                   Vector &);                                      \
+  template MarchReport                march_from_guess(const Equilibrium<dim> &,                   \
+                                                       TangentSolver<dim> &,                       \
+                                                       const Method &,                             \
+                                                       const MarchCallbacks &,                     \
+                                                       Stopwatch &,                                \
+                                                       std::vector<std::string> &,                 \
+                                                       Vector &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace isochor
