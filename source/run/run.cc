@@ -184,6 +184,9 @@ namespace isochor
         result.status = "checked";
         return result;
       }
+    RunCheckpoints checkpoints(settings, discretisation);
+    const SavedRun earlier
+        = settings.restart ? checkpoints.load(state, result.warnings) : SavedRun();
     settings.before_output();
 
     TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
@@ -203,9 +206,6 @@ namespace isochor
         result.inf_sup_at_rest = stability(scratch); // zero
       }
 
-    RunCheckpoints checkpoints(settings, discretisation);
-    const SavedRun earlier
-        = settings.restart ? checkpoints.load(state, result.warnings) : SavedRun();
     for (std::size_t k = 0; k < earlier.seconds.size(); ++k)
       stopwatch.add(static_cast<Phase>(k), earlier.seconds[k]);
 

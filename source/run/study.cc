@@ -196,6 +196,13 @@ namespace isochor
       {
         if (invocation.restart)
           keep_finished();
+        if (!plan.is_study() && results.front().converged())
+          {
+            if (on_root)
+              std::cout << "the run in '" << folder.string()
+                        << "' is finished: converged; --overwrite runs it again" << std::endl;
+            return ExitCode::converged;
+          }
         if (plan.is_study())
           prepare();
         ExitCode code = ExitCode::converged;
@@ -243,7 +250,8 @@ namespace isochor
 
     private:
       /// Rows and results of the runs that have ended, from results.csv. A single run that did not
-      /// converge goes on: its method may have changed.
+      /// converge goes on: its method may have changed. Throws UserError if there is nothing to go
+      /// on with.
       void keep_finished()
       {
         std::vector<ResultRow> rows;
@@ -257,18 +265,17 @@ namespace isochor
           for (std::size_t index = 0; index < plan.runs.size(); ++index)
             if (row.back().second == folder_name(index))
               {
-                RunResult  result = result_of_row(row);
-                const bool interrupted
-                    = result.status == run_status_names.name(RunStatus::interrupted);
-                if (!result.converged() && (interrupted || !plan.is_study()))
-                  continue;
-                if (!plan.is_study())
-                  throw UserError("--restart: the run in '" + folder.string() + "' is finished: "
-                                  + result.status + "; run it from the start with --overwrite");
-                kept_rows[index] = row;
-                results[index]   = std::move(result);
+                RunResult result = result_of_row(row);
+                if (result.converged()
+                    || (plan.is_study()
+                        && result.status == run_status_names.name(RunStatus::not_converged)))
+                  {
+                    kept_rows[index] = row;
+                    results[index]   = std::move(result);
+                  }
               }
-        if (!plan.is_study() && Checkpoints(communicator, folder, {}).numbers().empty())
+        if (!plan.is_study() && kept_rows.front().empty()
+            && Checkpoints(communicator, folder, {}).numbers().empty())
           throw UserError("--restart: no state is saved in '" + folder.string()
                           + "'; run it from the start with --overwrite");
       }

@@ -22,14 +22,18 @@ subsection Method
   set Newton tolerance = 1e-10
 end
 """
-ONE = SCENE.format(poisson_ratio=0.49, steps=40)
-STUDY = SCENE.format(poisson_ratio="{{0.3|0.45|0.49}}", steps=30)
+ONE = SCENE.format(poisson_ratio=0.49, steps=20)
+STUDY = SCENE.format(poisson_ratio="{{0.3|0.45|0.49}}", steps=20)
 
 # What two runs of one program may spend differently, and what an interruption throws away: the
 # stress predicted for the next tangent and the kept factors.
 COSTS = re.compile("seconds|memory|factorisations|krylov|newton|folder")
 # Newton stops at 1e-10 of the forces; what is left is compared to a few digits less.
 DIGITS = 1e-7
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
 class Restart(IsochorCase):
@@ -116,15 +120,16 @@ class Restart(IsochorCase):
         told = self.run_isochor(ONE, "--restart", code=1)
         self.assertIn("holds no results of Isochor", told)
         self.kill_after(ONE, 3)
-        before = {path.name: path.read_bytes() for path in self.out.iterdir()}
+        before = contents(self.out)
         for change, said in (("Scene/Poisson ratio=0.3", "Scene/Poisson ratio was '0.49', is '0.3'"),
                              ("Scene/Cells=8, 1, 2", "Scene/Cells was '8, 1, 1', is '8, 1, 2'"),
                              ("Method/Element=P2-P1", "Method/Element was 'P1-P1', is 'P2-P1'")):
             told = self.run_isochor(ONE, "--restart", "--set", change, code=1)
             self.assertIn("belong to another run: " + said, told)
+            self.assertEqual(contents(self.out), before)
         told = self.run_isochor(ONE, "--restart", ranks=2, code=1)
         self.assertIn("number of ranks was '1', is '2'", told)
-        self.assertEqual({path.name: path.read_bytes() for path in self.out.iterdir()}, before)
+        self.assertEqual(contents(self.out), before)
         # How it is solved may change.
         self.run_isochor(ONE, "--restart", "--set", "Method/Linear solver=direct", "--set",
                          "Method/Load steps=5")
@@ -140,30 +145,28 @@ class Restart(IsochorCase):
     def test_finished(self):
         text = SCENE.format(poisson_ratio=0.49, steps=1)
         self.run_isochor(text)
-        self.assertRegex(self.run_isochor(text, "--restart", code=1),
+        self.assertRegex(self.run_isochor(text, "--restart"),
                          "the run in '.*out' is finished: converged")
 
     def test_study(self):
-        for ranks in (1, 2):
-            with self.subTest(ranks=ranks):
-                whole = self.folder / f"study_{ranks}"
-                self.run_isochor(STUDY, out=whole, ranks=ranks)
-                self.out = self.folder / f"killed_{ranks}"
-                self.kill_after(STUDY, 3, folder=self.out / "run_002", ranks=ranks)
-                first = self.out / "run_001" / "steps.csv"
-                before = first.stat().st_mtime_ns
-                rows = read_csv(self.out / "results.csv")
-                self.assertEqual(len(rows), 1)
-                told = self.run_isochor(STUDY, "--restart", ranks=ranks)
-                self.assertRegex(told, r"Poisson ratio 0\.45: continued from the state")
-                self.assertEqual(first.stat().st_mtime_ns, before)
-                found = read_csv(self.out / "results.csv")
-                self.assertEqual(found[:1], rows)
-                for row, wanted in zip(found, read_csv(whole / "results.csv"), strict=True):
-                    self.assert_same(row, wanted)
-                told = self.run_isochor(STUDY, "--restart", ranks=ranks)
-                self.assertIn("all runs were finished already", told)
-                self.assertEqual(read_csv(self.out / "results.csv"), found)
+        whole = self.folder / "whole"
+        self.run_isochor(STUDY, out=whole)
+        self.kill_after(STUDY, 3, folder=self.out / "run_002")
+        first = self.out / "run_001" / "steps.csv"
+        before = first.stat().st_mtime_ns
+        rows = read_csv(self.out / "results.csv")
+        self.assertEqual(len(rows), 1)
+        told = self.run_isochor(STUDY, "--restart")
+        self.assertRegex(told, r"Poisson ratio 0\.45: continued from the state")
+        self.assertEqual(first.stat().st_mtime_ns, before)
+        found = read_csv(self.out / "results.csv")
+        self.assertEqual(found[:1], rows)
+        for row, wanted in zip(found, read_csv(whole / "results.csv"), strict=True):
+            self.assert_same(row, wanted)
+
+        told = self.run_isochor(STUDY, "--restart")
+        self.assertIn("all runs were finished already", told)
+        self.assertEqual(read_csv(self.out / "results.csv"), found)
         told = self.run_isochor(STUDY, "--restart", "--set", "Scene/Fixed=right", code=1)
         self.assertIn("holds another study: Scene/Fixed was 'left', is 'right'", told)
 
