@@ -107,11 +107,12 @@ namespace isochor
 
     MarchReport  report       = begin.report;
     const double largest_step = 1. / stepping.load_steps;
-    double step = begin.next_step > 0. ? std::min(begin.next_step, largest_step) : largest_step;
-    if (begin.state.size() > 0)
+    double       step         = largest_step;
+    if (!begin.vectors.empty())
       {
-        state = begin.state;
+        state = begin.vectors.front();
         state.update_ghost_values();
+        step = std::min(begin.numbers.front(), largest_step);
       }
     Vector trial(state);
 
@@ -144,7 +145,7 @@ namespace isochor
             callbacks.converged({report.load_steps, load, newton_report, size, clock.total()},
                                 state);
             if (callbacks.resumable && load < 1.)
-              callbacks.resumable({report, step, state});
+              callbacks.resumable({report, {state}, {step}});
           }
         else if (newton_report.outcome == NewtonOutcome::interrupted)
           {

@@ -146,7 +146,10 @@ namespace isochor
     const auto count = [&](const std::string &name) {
       return parse_whole_number(text(name), 0, "results.csv: " + name);
     };
-    result.status                  = text("status");
+    result.status = text("status");
+    for (const std::string &name : run_status_names.names())
+      if (result.status.starts_with(name))
+        result.march.status = run_status_names.value(name, "results.csv");
     result.reason                  = text("reason");
     result.unknowns                = count("unknowns");
     result.march.newton_iterations = count("newton iterations");

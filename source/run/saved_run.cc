@@ -46,7 +46,7 @@ namespace isochor
   template <typename Archive>
   void serialize(Archive &archive, SavedRun &run, unsigned int)
   {
-    archive &run.march.report &run.march.next_step &run.pictures &run.linear &run.seconds &run
+    archive &run.march.report &run.march.numbers &run.pictures &run.linear &run.seconds &run
         .seconds_total &run.peak_megabytes;
   }
 
@@ -55,9 +55,10 @@ namespace isochor
     /// The share of this rank.
     std::string to_bytes(const SavedRun &run)
     {
-      const Vector             &state = run.march.state;
-      const std::vector<double> values(state.begin(), state.begin() + state.locally_owned_size());
-      std::ostringstream        stream;
+      std::vector<std::vector<double>> values;
+      for (const Vector &vector : run.march.vectors)
+        values.emplace_back(vector.begin(), vector.begin() + vector.locally_owned_size());
+      std::ostringstream stream;
       {
         boost::archive::binary_oarchive archive(stream, boost::archive::no_header);
         archive << run << values;
@@ -67,17 +68,20 @@ namespace isochor
 
     SavedRun from_bytes(const std::string &bytes, const Vector &layout)
     {
-      SavedRun            run;
-      std::vector<double> values;
+      SavedRun                         run;
+      std::vector<std::vector<double>> values;
       {
         std::istringstream              stream(bytes);
         boost::archive::binary_iarchive archive(stream, boost::archive::no_header);
         archive >> run >> values;
       }
-      run.march.state.reinit(layout);
-      if (values.size() != run.march.state.locally_owned_size())
-        throw std::runtime_error("a saved state of another size");
-      std::copy(values.begin(), values.end(), run.march.state.begin());
+      for (const std::vector<double> &of_vector : values)
+        {
+          Vector &vector = run.march.vectors.emplace_back(layout.get_partitioner());
+          if (of_vector.size() != vector.locally_owned_size())
+            throw std::runtime_error("a saved state of another size");
+          std::copy(of_vector.begin(), of_vector.end(), vector.begin());
+        }
       return run;
     }
 

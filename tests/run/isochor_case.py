@@ -16,6 +16,10 @@ if os.geteuid() == 0:
     MPIRUN.append("--allow-run-as-root")
 
 
+# Status of a run that has reached the full load.
+CONVERGED = "converged"
+
+
 def read_csv(file):
     with open(file, newline="") as stream:
         return list(csv.DictReader(stream))

@@ -3,7 +3,7 @@
 import signal
 import unittest
 
-from isochor_case import IsochorCase
+from isochor_case import CONVERGED, IsochorCase
 
 SCENE = """
 subsection Scene
@@ -66,7 +66,7 @@ class Endings(IsochorCase):
         (self.out / "notes.txt").write_text("mine")
         self.run_isochor(text, "--overwrite")
         self.assertEqual((self.out / "notes.txt").read_text(), "mine")
-        self.check_files("converged")
+        self.check_files(CONVERGED)
 
     def test_bad_input_makes_no_folder(self):
         text = SCENE.format(cells="2, 1, 1", traction="0, -1, 0", steps=1)

@@ -4,7 +4,7 @@ disk, and results.csv says how far the load got and why no further."""
 
 import unittest
 
-from isochor_case import IsochorCase, read_csv
+from isochor_case import CONVERGED, IsochorCase, read_csv
 
 SCENE = """
 subsection Scene
@@ -74,7 +74,7 @@ class Failures(IsochorCase):
         process = self.start(text, *arguments, **keywords)
         out, err = process.communicate(timeout=300)
         self.assertIn(process.returncode, (0, 2), out + err)
-        status = "converged" if process.returncode == 0 else "not converged"
+        status = CONVERGED if process.returncode == 0 else "not converged"
         row = self.check_files(status)
         self.assertIn(status, out)
         if process.returncode == 0:

@@ -5,7 +5,7 @@ import re
 import signal
 import unittest
 
-from isochor_case import IsochorCase, read_csv
+from isochor_case import CONVERGED, IsochorCase, read_csv
 
 SCENE = """
 subsection Scene
@@ -62,7 +62,7 @@ class Restart(IsochorCase):
             with self.subTest(ranks=ranks):
                 whole = self.folder / f"whole_{ranks}"
                 self.run_isochor(ONE, out=whole, ranks=ranks)
-                wanted = self.check_files("converged", whole)
+                wanted = self.check_files(CONVERGED, whole)
                 self.assertEqual(self.checkpoints(whole), [])
 
                 self.out = self.folder / f"killed_{ranks}"
@@ -71,7 +71,7 @@ class Restart(IsochorCase):
                 self.assertGreaterEqual(len(self.checkpoints()), 2 * ranks)
                 told = self.run_isochor(ONE, "--restart", ranks=ranks)
                 self.assertRegex(told, r"continued from the state saved after load step \d+")
-                self.assert_same(self.check_files("converged"), wanted)
+                self.assert_same(self.check_files(CONVERGED), wanted)
                 # Neither a row or picture twice nor one too few.
                 for row, other in zip(read_csv(self.out / "steps.csv"),
                                       read_csv(whole / "steps.csv"), strict=True):
@@ -93,8 +93,8 @@ class Restart(IsochorCase):
         steps = len(read_csv(self.out / "steps.csv"))
         self.kill_after(ONE, steps + 3, "--restart")
         self.run_isochor(ONE, "--restart")
-        self.assert_same(self.check_files("converged"), self.check_files(
-            "converged", self.folder / "whole"))
+        self.assert_same(self.check_files(CONVERGED), self.check_files(
+            CONVERGED, self.folder / "whole"))
 
     def test_damaged(self):
         self.run_isochor(ONE, out=self.folder / "whole")
@@ -105,8 +105,8 @@ class Restart(IsochorCase):
         told = self.run_isochor(ONE, "--restart")
         self.assertIn(f"the state saved after load step {number + 1} is damaged", told)
         self.assertIn(f"continued from the state saved after load step {number},", told)
-        self.assert_same(self.check_files("converged"), self.check_files(
-            "converged", self.folder / "whole"))
+        self.assert_same(self.check_files(CONVERGED), self.check_files(
+            CONVERGED, self.folder / "whole"))
 
     def test_one_rank_missing(self):
         self.kill_after(ONE, 6, ranks=2)
@@ -114,7 +114,7 @@ class Restart(IsochorCase):
         checkpoints[-1].unlink()
         told = self.run_isochor(ONE, "--restart", ranks=2)
         self.assertIn("is damaged or not whole", told)
-        self.check_files("converged")
+        self.check_files(CONVERGED)
 
     def test_refused(self):
         told = self.run_isochor(ONE, "--restart", code=1)
@@ -133,7 +133,7 @@ class Restart(IsochorCase):
         # How it is solved may change.
         self.run_isochor(ONE, "--restart", "--set", "Method/Linear solver=direct", "--set",
                          "Method/Load steps=5")
-        self.check_files("converged")
+        self.check_files(CONVERGED)
 
     def test_nothing_saved(self):
         self.kill_after(ONE, 3, "--set", "Output/Checkpoint=never")

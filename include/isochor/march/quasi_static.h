@@ -51,9 +51,11 @@ namespace isochor
   /// Between two load steps: what the march needs to go on from there.
   struct MarchState
   {
-    MarchReport report;        ///< so far; its load is that of `state`
-    double      next_step = 0; ///< of the load factor; 0: as long as the options say
-    Vector      state;         ///< last converged; empty: the march begins at the state it is given
+    MarchReport report; ///< so far
+    /// The last converged state, and what else the way of stepping needs. None: the march begins at
+    /// the state that it is given.
+    std::vector<Vector> vectors;
+    std::vector<double> numbers; ///< likewise: the next step of the load factor
   };
 
   struct MarchCallbacks
