@@ -56,7 +56,8 @@ namespace isochor
       equilibrium.prescribed().gap(state, 0., scratch);
       state += scratch;
       const double min_jacobian = equilibrium.residual(state, 0., scratch).min_jacobian;
-      if (!equilibrium.is_linear() && !(min_jacobian > 0.))
+      // Rounding must not decide whether a flat cell is inverted.
+      if (!equilibrium.is_linear() && !(min_jacobian > 1e-6))
         throw UserError("Scene/Initial displacement: it flattens or inverts cells (min J "
                         + to_text(min_jacobian)
                         + "); allowed: a displacement that keeps every J above 0, the supports "
