@@ -55,16 +55,23 @@ class Nested(IsochorCase):
         nested, _ = self.run_in("nested", text, "--set", "Method/Nested levels=2")
         self.assertAlmostEqual(float(nested["min J"]), float(plain["min J"]), 6)
 
-    def test_coarse_mesh_without_equilibrium(self):
-        # A coarse beam that may not take one Newton iteration.
-        text = SCENE.format(poisson_ratio=0.4, element="P1-P1", steps=1, loads="")
-        text = text.replace("set Mesh ", "set Prescribed displacement = right: 0, 2*x*load*"
-                            "if(abs(y - 0.05) < 0.03, 1, 0), 0\n  set Mesh ")
-        told = self.run_isochor(text, "--set", "Method/Nested levels=2", "--set",
+    def test_no_equilibrium(self):
+        text = SCENE.format(poisson_ratio=0.4, element="P1-P1", steps=1,
+                            loads="set Traction = right: -1e9, 0, 0")
+        told = self.run_isochor(text, "--set", "Method/Nested levels=1", "--set",
+                                "Method/Minimum load step=0.5", code=2)
+        self.assertIn("nested iteration: no equilibrium on the mesh of 48 cells", told)
+        self.assertIn("begun from rest", told)
+
+    def test_useless_start(self):
+        # The coarse mesh has no node where the displacement is, and sees nothing of it.
+        text = SCENE.format(poisson_ratio=0.4, element="P1-P1", steps=1, loads="set Prescribed "
+                            "displacement = right: 0.2*load*if(abs(y - 0.05) < 0.03, 1, 0), 0, 0")
+        told = self.run_isochor(text, "--set", "Method/Nested levels=1", "--set",
                                 "Method/Maximum Newton iterations=1", "--set",
                                 "Method/Minimum load step=0.5", code=2)
-        self.assertIn("nested iteration: no equilibrium on the mesh of", told)
-        self.assertIn("begun from rest", told)
+        self.assertIn("nested iteration: the interpolated state led to no equilibrium on the mesh "
+                      "of 384 cells; begun from rest", told)
 
     def test_refused(self):
         text = SCENE.format(poisson_ratio=0.4, element="P1", steps=1, loads="")
