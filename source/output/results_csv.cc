@@ -95,8 +95,9 @@ namespace isochor
       std::string text;
       for (const ResultRow &row : kept)
         text += lines(row);
-      write_whole_file(this->file, text);
-      stream.reset(std::fopen(this->file.c_str(), "ab"));
+      if (!kept.empty())
+        write_whole_file(this->file, text);
+      stream.reset(std::fopen(this->file.c_str(), kept.empty() ? "wb" : "ab"));
       if (!stream)
         throw UserError(this->file.string() + ": cannot be written: " + std::strerror(errno));
     });

@@ -73,6 +73,25 @@ int main(int argc, char **argv)
   if (root)
     std::cout << "--- still two rows\n" << contents("results.csv");
 
+  if (root)
+    {
+      // A program that was killed while it wrote a row.
+      std::ofstream("results.csv", std::ios::app) << "P2,-0.";
+      for (const ResultRow &row : read_results("results.csv"))
+        {
+          std::cout << "--- read";
+          for (const auto &[name, value] : row)
+            std::cout << " | " << name << " = " << value;
+          std::cout << '\n';
+        }
+    }
+  {
+    ResultsCsv again(MPI_COMM_WORLD, "again.csv", {read_results("results.csv").at(1)});
+    again.add({{"Method/Element", "P3"}, {"tip, y [m]", "1"}, {"say \"why\"", ""}});
+  }
+  if (root)
+    std::cout << "--- one row kept, one new\n" << contents("again.csv");
+
   report("no folder", []() { ResultsCsv(MPI_COMM_WORLD, "nowhere/results.csv"); });
   report("disk full", []() {
     ResultsCsv full(MPI_COMM_WORLD, "/dev/full");

@@ -26,8 +26,8 @@ namespace isochor
   class ResultsCsv
   {
   public:
-    /// Creates the file with the rows @p kept on rank 0 (only its rows count); an older file is
-    /// there until then. Throws UserError naming it. Collective.
+    /// Creates the file on rank 0 with the rows @p kept (only those of rank 0 count); with such rows,
+    /// an older file is there until then. Throws UserError naming it. Collective.
     ResultsCsv(MPI_Comm                      communicator,
                std::filesystem::path         file,
                const std::vector<ResultRow> &kept = {});
