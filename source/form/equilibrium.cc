@@ -2,6 +2,7 @@
 #include <isochor/form/equilibrium.h>
 #include <isochor/form/loads.h>
 #include <isochor/form/predicted_stress.h>
+#include <isochor/form/pressure_mass.h>
 
 #include <cmath>
 
@@ -50,7 +51,7 @@ namespace isochor
   {
     const Material &material = scene.material;
     const Moduli    moduli   = isochor::moduli(material);
-    is_compressible_         = std::isfinite(moduli.kappa);
+    moduli_                  = moduli;
     auto elasticity          = std::make_unique<Elasticity<dim>>(
         discretisation, material.energy, material.volumetric_strain, moduli, compliance);
     is_linear_ = elasticity->is_linear() && scene.pressures.empty();
@@ -72,9 +73,21 @@ namespace isochor
 
     SparseMatrix at_rest = pattern;
     tangent(discretisation.make_vector(), 0., at_rest);
+    diagonal_ = discretisation.make_vector();
+    if (discretisation.n_pressures > 0)
+      {
+        diagonal_ = PressureMass<dim>(discretisation).diagonal();
+        diagonal_ *= 1. / moduli.mu + moduli.compliance();
+      }
     double squared = 0;
     for (LocalIndex i = 0; i < discretisation.n_owned_displacements; ++i)
-      squared += std::pow(at_rest.values()[at_rest.position(i, i)], 2);
+      {
+        const double entry = at_rest.values()[at_rest.position(i, i)];
+        squared += std::pow(entry, 2);
+        const LocalIndex node = i - i % dim;
+        for (LocalIndex k = node; k < node + dim; ++k)
+          diagonal_.local_element(k) += entry / dim;
+      }
     stiffness_scale
         = std::sqrt(dealii::Utilities::MPI::sum(squared, discretisation.communicator()));
   }
@@ -149,6 +162,24 @@ namespace isochor
     internal->add(state, load, {nullptr, &matrix, &offsets, stress});
     for (const auto &term : loads)
       term->add(state, load, {nullptr, &matrix, &offsets, nullptr});
+  }
+
+  template <int dim>
+  void Equilibrium<dim>::tangent_product(const Vector &state,
+                                         const double  load,
+                                         const Vector &direction,
+                                         Vector       &product) const
+  {
+    state.update_ghost_values();
+    direction.update_ghost_values();
+    product = 0.;
+    Target target;
+    target.direction = &direction;
+    target.product   = &product;
+    internal->add(state, load, target);
+    for (const auto &term : loads)
+      term->add(state, load, target);
+    product.zero_out_ghost_values();
   }
 
   template <int dim>

@@ -26,19 +26,22 @@ namespace isochor
         double                *residual = target.residual ? target.residual->begin() : nullptr;
 
         Evaluation  evaluation;
-        CellBatch   in;
+        CellBatch   in, direction;
         BatchSystem out;
         System      lanes[n_lanes];
         for (std::size_t first = 0; first < cells.n_cells; first += n_lanes)
           {
             const unsigned int n_filled = std::min<std::size_t>(n_lanes, cells.n_cells - first);
             gather(cells, values, first, n_filled, in);
+            if (target.product != nullptr)
+              gather_unknowns(cells, target.direction->begin(), first, n_filled, direction);
             Stress predicted;
             if (target.stress != nullptr)
               predicted = target.stress->of_cells(first, n_filled);
             compute(data,
                     in,
                     target.tangent != nullptr,
+                    target.product != nullptr ? &direction : nullptr,
                     target.stress != nullptr ? &predicted : nullptr,
                     out);
 
@@ -46,7 +49,7 @@ namespace isochor
             for (unsigned int lane = 0; lane < n_filled && first + lane < cells.n_owned; ++lane)
               evaluation.value += out.value[lane];
 
-            if (residual != nullptr || target.tangent != nullptr)
+            if (residual != nullptr || target.tangent != nullptr || target.product != nullptr)
               transpose(out, target.tangent != nullptr, lanes);
             for (unsigned int lane = 0; lane < n_filled; ++lane)
               {
@@ -54,6 +57,8 @@ namespace isochor
                   lanes[lane].add_residual(cells, first + lane, residual);
                 if (target.tangent != nullptr)
                   lanes[lane].add_tangent(cells, first + lane, *target.offsets, *target.tangent);
+                if (target.product != nullptr)
+                  lanes[lane].add_residual(cells, first + lane, target.product->begin());
               }
           }
         return evaluation;
@@ -79,11 +84,11 @@ namespace isochor
         Batch J, value;
       };
 
-      static void gather(const CellTables<dim> &cells,
-                         const double          *values,
-                         const std::size_t      first,
-                         const unsigned int     n_filled,
-                         CellBatch             &in)
+      static void gather_unknowns(const CellTables<dim> &cells,
+                                  const double          *values,
+                                  const std::size_t      first,
+                                  const unsigned int     n_filled,
+                                  CellBatch             &in)
       {
         for (unsigned int lane = 0; lane < n_lanes; ++lane)
           {
@@ -94,7 +99,20 @@ namespace isochor
                 in.u[a][c][lane] = values[cells.x[cell * n_x + a] + c];
             for (int j = 0; j < n_p; ++j)
               in.p[j][lane] = values[cells.p[cell * n_p + j]];
-            const double *inverse = cells.inverse(cell);
+          }
+      }
+
+      static void gather(const CellTables<dim> &cells,
+                         const double          *values,
+                         const std::size_t      first,
+                         const unsigned int     n_filled,
+                         CellBatch             &in)
+      {
+        gather_unknowns(cells, values, first, n_filled, in);
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            const std::size_t cell    = first + std::min(lane, n_filled - 1);
+            const double     *inverse = cells.inverse(cell);
             for (int k = 0; k < dim; ++k)
               for (int d = 0; d < dim; ++d)
                 in.gradient[k + 1][d][lane] = inverse[k * dim + d];
@@ -110,10 +128,12 @@ namespace isochor
 
       static void compute(const ElasticityData<dim> &data,
                           const CellBatch           &in,
-                          const bool                 with_tangent,
+                          const bool                 with_matrix,
+                          const CellBatch           *direction,
                           const Stress              *predicted,
                           BatchSystem               &out)
       {
+        const bool  with_tangent = with_matrix || direction != nullptr;
         Deformation deformation;
         for (int i = 0; i < 3; ++i)
           for (int J = 0; J < 3; ++J)
@@ -178,8 +198,51 @@ namespace isochor
               }
           }
 
-        if (with_tangent)
+        if (with_matrix)
           tangent(data.energy->is_symmetric(), in, volumetric, response, out);
+        if (direction != nullptr)
+          differential(in, *direction, volumetric, response, out);
+      }
+
+      /// The change of the residual along a direction: dP = A : dF + dp dPhi/dF, without the cell's
+      /// matrix. C of @p out is that of the cell; its residual is overwritten.
+      static void differential(const CellBatch          &in,
+                               const CellBatch          &direction,
+                               const VolumetricResponse &volumetric,
+                               const Response           &response,
+                               BatchSystem              &out)
+      {
+        Batch dF[dim][dim] = {};
+        for (int a = 0; a < n_x; ++a)
+          for (int i = 0; i < dim; ++i)
+            for (int J = 0; J < dim; ++J)
+              dF[i][J] += direction.u[a][i] * in.gradient[a][J];
+        Batch dq{}, strain{};
+        for (int j = 0; j < n_p; ++j)
+          dq += direction.p[j] * (1. / n_p);
+
+        for (int i = 0; i < dim; ++i)
+          {
+            Batch dP[dim];
+            for (int J = 0; J < dim; ++J)
+              {
+                dP[J] = dq * volumetric.gradient[3 * i + J];
+                for (int k = 0; k < dim; ++k)
+                  for (int L = 0; L < dim; ++L)
+                    dP[J] += response.A[9 * (3 * i + J) + 3 * k + L] * dF[k][L];
+                strain += volumetric.gradient[3 * i + J] * dF[i][J];
+              }
+            for (int a = 0; a < n_x; ++a)
+              {
+                Batch force = dP[0] * in.gradient[a][0];
+                for (int J = 1; J < dim; ++J)
+                  force += dP[J] * in.gradient[a][J];
+                out.r_u[dim * a + i] = in.volume * force;
+              }
+          }
+        for (int j = 0; j < n_p; ++j)
+          out.r_p[j] = in.volume * strain * (1. / n_p) - out.C_off_diagonal * (n_p * dq)
+                       - (out.C_diagonal - out.C_off_diagonal) * direction.p[j];
       }
 
       static void tangent(const bool                is_symmetric,

@@ -171,7 +171,7 @@ namespace isochor
                     target.residual->local_element(cells.x[face.cell * cells.n_x + table.nodes[n]]
                                                    + i)
                         += p * at.value[n] * point.normal[i];
-              if (target.tangent != nullptr)
+              if (target.tangent != nullptr || target.product != nullptr)
                 add_tangent(face, table, at, point, p, target);
             }
         }
@@ -186,9 +186,7 @@ namespace isochor
                                           const double                       pressure,
                                           const Target                      &target) const
   {
-    const CellTables<dim> &cells     = discretisation.cells;
-    double                *values    = target.tangent->values().data();
-    const auto            &row_start = target.tangent->row_start();
+    const CellTables<dim> &cells = discretisation.cells;
     for (unsigned int b = 0; b < table.nodes.size(); ++b)
       {
         // slope[i][k] = d (n da)_i / d u_bk
@@ -210,13 +208,26 @@ namespace isochor
               }
           }
         slope *= pressure * table.sign;
+        dealii::Tensor<1, dim> change;
+        if (target.product != nullptr)
+          for (unsigned int k = 0; k < dim; ++k)
+            change[k] = target.direction->local_element(
+                cells.x[face.cell * cells.n_x + table.nodes[b]] + k);
+        change = slope * change;
 
         for (unsigned int a = 0; a < table.nodes.size(); ++a)
           {
             const LocalIndex head = cells.x[face.cell * cells.n_x + table.nodes[a]];
             if (head >= cells.n_owned_unknowns)
               continue;
-            const auto offset = target.offsets->row(face.cell, table.nodes[a])[table.nodes[b]];
+            if (target.product != nullptr)
+              for (unsigned int i = 0; i < dim; ++i)
+                target.product->local_element(head + i) += at.value[a] * change[i];
+            if (target.tangent == nullptr)
+              continue;
+            double     *values    = target.tangent->values().data();
+            const auto &row_start = target.tangent->row_start();
+            const auto  offset    = target.offsets->row(face.cell, table.nodes[a])[table.nodes[b]];
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int k = 0; k < dim; ++k)
                 values[row_start[head + i] + offset + k] += at.value[a] * slope[i][k];

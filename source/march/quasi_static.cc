@@ -131,7 +131,8 @@ namespace isochor
                                           callbacks,
                                           stopwatch,
                                           size);
-        NewtonReport newton_report = newton(problem, newton_options, trial);
+        NewtonReport newton_report = callbacks.solve ? callbacks.solve(load, size, trial)
+                                                     : newton(problem, newton_options, trial);
         report.newton_iterations += newton_report.iterations;
 
         if (newton_report.outcome == NewtonOutcome::converged)

@@ -36,6 +36,44 @@ namespace isochor
                         + ") or a larger Poisson ratio");
     }
 
+    /// The legal pairs of an element and a solver.
+    struct SolverRow
+    {
+      Solver solver;
+      bool (*takes)(const Element &);
+      const char *needs;
+    };
+    constexpr SolverRow solver_table[]
+        = {{Solver::newton, [](const Element &) { return true; }, "any element"},
+           {Solver::dual_ascent,
+            [](const Element &element) { return element.is_mixed(); },
+            "the pressures of a mixed element"}};
+
+    void check_solver(const Method &method)
+    {
+      const std::string name = solver_names.name(method.solver);
+      for (const SolverRow &row : solver_table)
+        if (row.solver == method.solver && !row.takes(method.element))
+          throw UserError("Method/Solver: '" + name + "' needs " + row.needs + ", which "
+                          + std::string(method.element.name)
+                          + " has not; choose Newton, or an element among "
+                          + listed(element_names([&](const Element &other) {
+                              return row.takes(other) && other.kind == method.element.kind;
+                            })));
+      if (!is_matrix_free(method.linear.solver))
+        return;
+      const std::string linear = linear_solver_names.name(method.linear.solver);
+      if (method.solver == Solver::dual_ascent)
+        throw UserError(
+            "Method/Linear solver: " + linear
+            + " has no factors for 'dual ascent' to keep; choose automatic, kept, direct "
+              "or UMFPACK, or Method/Solver = Newton");
+      if (method.linear.condensation != Condensation::automatic
+          && method.linear.condensation != Condensation::none)
+        throw UserError("Method/Condensation: " + linear
+                        + " has no matrix to eliminate unknowns from; choose automatic or none");
+    }
+
     void check_condensation(const Method &method, const Material &material)
     {
       const Element    &element = method.element;
@@ -112,8 +150,10 @@ namespace isochor
                       dealii::Patterns::Selection(linear_solver_names.selection()),
                       "kept: MUMPS' LDL^T in single precision, kept over several Newton iterations "
                       "as the preconditioner of FGMRES. direct: MUMPS' LDL^T in double precision, "
-                      "anew in every iteration. UMFPACK: LU, likewise, one rank. All but UMFPACK "
-                      "count negative pivots. automatic: kept.");
+                      "anew in every iteration. UMFPACK: LU, likewise, one rank. CR, CG: conjugate "
+                      "residuals or gradients with diagonal scaling and without a matrix; many "
+                      "iterations, and either may break down on a mixed element. MUMPS' count "
+                      "negative pivots. automatic: kept.");
     prm.declare_entry(
         "Nested levels",
         "0",
@@ -122,15 +162,23 @@ namespace isochor
         "of the next one, that are solved on first: the equilibrium at the full load, "
         "interpolated, is where Newton's method begins on the mesh itself. Where that "
         "fails, load stepping begins from rest. No unit.");
+    prm.declare_entry(
+        "Solver",
+        solver_names.name(Solver::newton),
+        dealii::Patterns::Selection(solver_names.selection()),
+        "Of a load step. Newton: displacements and pressures together. dual ascent: "
+        "mixed elements; displacements by Newton's method at given pressures, which a "
+        "gradient ascent corrects. The result is the same.");
     SteppingOptions::declare(prm);
     NewtonOptions::declare(prm);
+    DualOptions::declare(prm);
     prm.leave_subsection();
   }
 
   Method Method::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Method");
-    Method method{find_element(prm.get("Element"), "Method/Element"), {}, {}, {}, {}};
+    Method method{find_element(prm.get("Element"), "Method/Element"), {}, {}, {}, {}, {}, {}, {}};
     method.nested_levels     = prm.get_integer("Nested levels");
     method.compliance.lumped = prm.get("Compliance matrix") == lumped;
     method.compliance.stabilisation
@@ -141,6 +189,8 @@ namespace isochor
         = condensation_names.value(prm.get("Condensation"), "Method/Condensation");
     method.stepping.parse(prm);
     method.newton.parse(prm);
+    method.solver = solver_names.value(prm.get("Solver"), "Method/Solver");
+    method.dual.parse(prm);
     prm.leave_subsection();
     return method;
   }
@@ -149,6 +199,7 @@ namespace isochor
   {
     check_element(method.element, material);
     check_condensation(method, material);
+    check_solver(method);
     if (method.linear.solver == LinearSolver::umfpack && n_ranks > 1)
       throw UserError("Method/Linear solver: UMFPACK runs on one rank, not on "
                       + std::to_string(n_ranks) + "; choose direct or automatic");

@@ -81,6 +81,16 @@ namespace isochor
     return errors;
   }
 
+  ResultRow dual_columns(const std::optional<DualReport> &dual)
+  {
+    const auto text = [&](const unsigned int DualReport::*count) {
+      return dual && *dual.*count > 0 ? std::to_string(*dual.*count) : "";
+    };
+    return {{"dual iterations", text(&DualReport::iterations)},
+            {"dual iterations to 1 %", text(&DualReport::to_one_percent)},
+            {"dual iterations to 0.01 %", text(&DualReport::to_hundredth_percent)}};
+  }
+
   ResultRow result_row(const StudyPlan                &plan,
                        const PlannedRun               &planned,
                        const RunResult                &result,
@@ -99,6 +109,8 @@ namespace isochor
     add("failed steps", std::to_string(result.march.failed_steps));
     add("newton iterations", std::to_string(result.march.newton_iterations));
     add("coarse newton iterations", std::to_string(result.coarse_newton_iterations));
+    for (const auto &[name, count] : dual_columns(result.dual))
+      add(name, count);
     add("factorisations", std::to_string(result.linear.factorisations));
     add("krylov iterations", std::to_string(result.linear.krylov_iterations));
     for (std::size_t k = 0; k < result.seconds.size(); ++k)

@@ -4,6 +4,7 @@
 #include <isochor/run/interrupt.h>
 #include <isochor/run/nested.h>
 #include <isochor/run/progress.h>
+#include <isochor/run/result_rows.h>
 #include <isochor/run/saved_run.h>
 #include <isochor/run/warnings.h>
 #include <isochor/space/interpolation.h>
@@ -112,7 +113,9 @@ namespace isochor
       {
       }
 
-      void add(const LoadStep &step, const std::vector<double> &values)
+      void add(const LoadStep                  &step,
+               const std::optional<DualReport> &dual,
+               const std::vector<double>       &values)
       {
         ResultRow row = {{"step", std::to_string(step.number)},
                          {"load factor", csv_number(step.load)},
@@ -120,6 +123,8 @@ namespace isochor
                          {"residual", csv_number(step.newton.merit)},
                          {"min J", csv_number(step.size.min_jacobian)},
                          {"seconds", csv_number(step.seconds)}};
+        for (const auto &[name, count] : dual_columns(dual))
+          row.emplace_back(name, count);
         for (std::size_t k = 0; k < columns.size(); ++k)
           row.emplace_back(columns[k].title(), csv_number(values[k]));
         csv.add(row);
@@ -219,9 +224,24 @@ namespace isochor
     };
 
     MarchCallbacks callbacks;
+    callbacks.interrupted = [&]() { return interrupted(communicator); };
+    std::optional<DualAscent<dim>> dual_ascent;
+    if (method.solver == Solver::dual_ascent)
+      {
+        dual_ascent.emplace(equilibrium, tangent_solver, method.newton, method.dual, stopwatch);
+        callbacks.solve = [&](const double load, ResidualSize &size, Vector &x) {
+          return dual_ascent->solve(load, callbacks.interrupted, size, x);
+        };
+      }
     callbacks.converged = [&](const LoadStep &step, const Vector &) {
-      const auto scope = stopwatch.measure(Phase::output);
-      steps.add(step, measure(step.load));
+      const auto                scope = stopwatch.measure(Phase::output);
+      std::optional<DualReport> dual;
+      if (dual_ascent)
+        {
+          dual        = dual_ascent->report();
+          result.dual = result.dual ? most(*result.dual, *dual) : *dual;
+        }
+      steps.add(step, dual, measure(step.load));
       if (settings.vtu == VtuOutput::every_step)
         vtu.write(state, step.load, step.number);
       if (talks)
@@ -231,8 +251,7 @@ namespace isochor
       if (talks)
         print_failed_step(load, report, next_step);
     };
-    callbacks.interrupted = [&]() { return interrupted(communicator); };
-    callbacks.resumable   = [&](const MarchState &march) {
+    callbacks.resumable = [&](const MarchState &march) {
       const auto scope = stopwatch.measure(Phase::output);
       if (checkpoints.is_due())
         checkpoints.save({march,

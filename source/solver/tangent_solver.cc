@@ -14,6 +14,8 @@ namespace isochor
     // More, and new factors are cheaper.
     constexpr unsigned int max_krylov_iterations_with_kept_factors = 10;
     constexpr double       rate_tolerance                          = 1e-6;
+    // Of a linear problem, which is to take one iteration with factors.
+    constexpr double smallest_matrix_free_tolerance = 1e-10;
 
     /// Groups of owned unknowns to eliminate.
     template <int dim>
@@ -94,10 +96,18 @@ namespace isochor
     : equilibrium(equilibrium)
     , options(options)
     , stopwatch(stopwatch)
-    , matrix(equilibrium.make_matrix())
     , rotations(equilibrium.discretisation(), equilibrium.prescribed())
   {
-    use(kind_of(options.solver));
+    if (is_matrix_free(options.solver))
+      matrix_free = std::make_unique<MatrixFreeSolver<dim>>(
+          equilibrium,
+          options.solver == LinearSolver::cr ? KrylovMethod::conjugate_residuals
+                                             : KrylovMethod::conjugate_gradients);
+    else
+      {
+        matrix = equilibrium.make_matrix();
+        use(kind_of(options.solver));
+      }
   }
 
   template <int dim>
@@ -121,6 +131,8 @@ namespace isochor
   {
     const auto scope = stopwatch.measure(Phase::assembly);
     equilibrium.tangent(state, load, matrix, stress);
+    if (change_tangent)
+      change_tangent(matrix);
     equilibrium.prescribed().apply(matrix, sides);
     if (!are_kept)
       scaling.compute(matrix, equilibrium.discretisation().n_owned_displacements, dim);
@@ -181,6 +193,9 @@ namespace isochor
                                                            Vector       &step,
                                                            Vector       *rate)
   {
+    if (matrix_free)
+      return matrix_free_correction(state, load, residual, tolerance, step, rate);
+
     Vector rhs(residual), gap(residual), rate_rhs, rate_gap;
     if (rate != nullptr)
       {
@@ -252,6 +267,47 @@ namespace isochor
   }
 
   template <int dim>
+  NewtonProblem::Correction TangentSolver<dim>::matrix_free_correction(const Vector &state,
+                                                                       const double  load,
+                                                                       const Vector &residual,
+                                                                       const double  tolerance,
+                                                                       Vector       &step,
+                                                                       Vector       *rate)
+  {
+    Vector rhs(residual), gap(residual);
+    rhs *= -1.;
+    equilibrium.prescribed().gap(state, load, gap);
+    const auto solve_one = [&](const double accuracy, Vector &solution) {
+      const auto        scope   = stopwatch.measure(Phase::solve);
+      const KrylovSolve outcome = matrix_free->solve(state, load, rhs, gap, accuracy, solution);
+      counts.krylov_iterations += outcome.iterations;
+      if (outcome.succeeded)
+        counts.worst_residual = std::max(counts.worst_residual, outcome.relative_residual);
+      return outcome;
+    };
+    KrylovSolve outcome = solve_one(std::max(tolerance, smallest_matrix_free_tolerance), step);
+    if (outcome.succeeded && rate != nullptr)
+      {
+        load_rates(equilibrium, state, load, rhs, gap);
+        outcome = solve_one(std::min(tolerance, rate_tolerance), *rate);
+      }
+    return {outcome.succeeded, outcome.failure};
+  }
+
+  template <int dim>
+  NewtonProblem::Correction
+  TangentSolver<dim>::solve_again(const Vector &rhs, const double tolerance, Vector &solution)
+  {
+    Vector scaled(rhs);
+    scaling.apply(scaled);
+    const LinearSolve outcome = solve(scaled, tolerance, solution);
+    if (!outcome.succeeded)
+      return {false, complaint(outcome)};
+    scaling.apply(solution);
+    return {true, ""};
+  }
+
+  template <int dim>
   LinearSolve TangentSolver<dim>::solve(const Vector &rhs, const double tolerance, Vector &step)
   {
     const auto  scope = stopwatch.measure(Phase::solve);
@@ -283,7 +339,7 @@ namespace isochor
   template <int dim>
   void TangentSolver<dim>::certify(const Vector &state, const double load)
   {
-    if (kind == DirectKind::umfpack)
+    if (kind == DirectKind::umfpack || matrix_free)
       return;
     are_kept = false;
     state.update_ghost_values();

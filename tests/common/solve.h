@@ -7,6 +7,7 @@
 
 #include <isochor/march/quasi_static.h>
 #include <isochor/mesh/mesh.h>
+#include <isochor/solver/dual_ascent.h>
 
 namespace isochor::testing
 {
@@ -18,6 +19,7 @@ namespace isochor::testing
     Vector                state;
     Vector                reactions;
     std::vector<LoadStep> steps;
+    DualReport            dual; ///< the most of any load step
   };
 
   struct SolveOptions
@@ -27,6 +29,8 @@ namespace isochor::testing
     double            minimum_step = 0.05;
     ComplianceOptions compliance;
     LinearOptions     linear;
+
+    std::optional<DualOptions> dual; ///< dual ascent in the place of Newton's method
   };
 
   template <int dim>
@@ -45,7 +49,8 @@ namespace isochor::testing
     Stopwatch          stopwatch;
     TangentSolver<dim> tangent_solver(equilibrium, options.linear, stopwatch);
 
-    Solution<dim>  solution{{}, {}, discretisation.make_vector(), discretisation.make_vector(), {}};
+    Solution<dim> solution{
+        {}, {}, discretisation.make_vector(), discretisation.make_vector(), {}, {}};
     MarchCallbacks callbacks;
     callbacks.converged
         = [&](const LoadStep &step, const Vector &) { solution.steps.push_back(step); };
@@ -53,14 +58,24 @@ namespace isochor::testing
     callbacks.interrupted = []() { return false; };
     NewtonOptions newton;
     newton.tolerance = options.tolerance;
-    solution.report  = march_quasi_static(equilibrium,
+    std::optional<DualAscent<dim>> dual_ascent;
+    if (options.dual)
+      {
+        dual_ascent.emplace(equilibrium, tangent_solver, newton, *options.dual, stopwatch);
+        callbacks.solve = [&](const double load, ResidualSize &size, Vector &state) {
+          const auto report = dual_ascent->solve(load, callbacks.interrupted, size, state);
+          solution.dual     = most(solution.dual, dual_ascent->report());
+          return report;
+        };
+      }
+    solution.report = march_quasi_static(equilibrium,
                                          tangent_solver,
                                          newton,
                                          {options.load_steps, options.minimum_step},
                                          callbacks,
                                          stopwatch,
                                          solution.state);
-    Vector residual  = discretisation.make_vector();
+    Vector residual = discretisation.make_vector();
     equilibrium.residual(solution.state, solution.report.load, residual, &solution.reactions);
     solution.statistics = tangent_solver.statistics();
     return solution;

@@ -50,6 +50,13 @@ namespace isochor
                  SparseMatrix          &matrix,
                  const PredictedStress *stress = nullptr) const;
 
+    /// product = tangent * direction without a matrix, cell by cell (force differentials); ghosts of
+    /// both arguments are updated. Collective.
+    void tangent_product(const Vector &state,
+                         double        load,
+                         const Vector &direction,
+                         Vector       &product) const;
+
     /// For tangent() at @p state + @p change; see predicted_stress.h. Ghosts are updated. Collective.
     std::unique_ptr<PredictedStress> predict_stress(const Vector &state,
                                                     const Vector &change) const;
@@ -63,14 +70,24 @@ namespace isochor
     {
       return is_linear_;
     }
+    const Moduli &moduli() const
+    {
+      return moduli_;
+    }
     /// Is kappa finite, and the compliance matrix not zero?
     bool is_compressible() const
     {
-      return is_compressible_;
+      return moduli_.compliance() > 0.;
     }
     const Discretisation<dim> &discretisation() const
     {
       return discretisation_;
+    }
+    /// Mean over the components of each displacement node of the tangent's diagonal at rest, and of
+    /// each pressure int N_p N_p (1/mu + 1/kappa), which its Schur complement is close to.
+    const Vector &diagonal() const
+    {
+      return diagonal_;
     }
     /// A zero matrix of the tangent's pattern. All come from the same pattern.
     SparseMatrix make_matrix() const
@@ -85,9 +102,10 @@ namespace isochor
     CellOffsets                        offsets;
     std::unique_ptr<Elasticity<dim>>   internal;
     std::vector<std::unique_ptr<Term>> loads;
-    bool                               is_compressible_ = true;
-    bool                               is_linear_       = false;
-    double                             volume_scale     = 0; ///< |int N_p|
-    double                             stiffness_scale  = 0; ///< |diagonal of the tangent at rest|
+    Moduli                             moduli_{};
+    bool                               is_linear_      = false;
+    double                             volume_scale    = 0; ///< |int N_p|
+    double                             stiffness_scale = 0; ///< |diagonal of the tangent at rest|
+    Vector                             diagonal_;
   };
 } // namespace isochor

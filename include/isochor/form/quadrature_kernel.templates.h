@@ -63,7 +63,7 @@ namespace isochor
       const CellTables<dim> &cells        = data.discretisation.cells;
       const double          *values       = state.begin();
       double                *residual     = target.residual ? target.residual->begin() : nullptr;
-      const bool             with_tangent = target.tangent != nullptr;
+      const bool             with_tangent = target.tangent != nullptr || target.product != nullptr;
 
       Evaluation                evaluation;
       auto                      system = std::make_unique<System>();
@@ -83,10 +83,15 @@ namespace isochor
             evaluation.value += value;
           if (residual != nullptr)
             system->add_residual(cells, cell, residual);
-          if (with_tangent)
+          if (target.tangent != nullptr)
             {
               tangent(data.energy->is_symmetric(), tangents, *system);
               system->add_tangent(cells, cell, *target.offsets, *target.tangent);
+            }
+          if (target.product != nullptr)
+            {
+              differential(cells, cell, target.direction->begin(), tangents, *system);
+              system->add_residual(cells, cell, target.product->begin());
             }
         }
       return evaluation;
@@ -109,6 +114,19 @@ namespace isochor
       Batch d_phi[dim][dim];       ///< dPhi/dF, weighted
     };
 
+    static void gather(const CellTables<dim> &cells,
+                       const std::size_t      cell,
+                       const double          *values,
+                       double (&u)[n_x][dim],
+                       double (&p)[System::n_q])
+    {
+      for (int a = 0; a < n_x; ++a)
+        for (int c = 0; c < dim; ++c)
+          u[a][c] = values[cells.x[cell * n_x + a] + c];
+      for (int j = 0; j < n_p; ++j)
+        p[j] = values[cells.p[cell * n_p + j]];
+    }
+
     /// Residual of one cell, and what its tangent needs. Returns the value of the term.
     double compute(const ElasticityData<dim> &data,
                    const CellTables<dim>     &cells,
@@ -121,11 +139,7 @@ namespace isochor
                    Evaluation                &evaluation) const
     {
       double u[n_x][dim], p[System::n_q];
-      for (int a = 0; a < n_x; ++a)
-        for (int c = 0; c < dim; ++c)
-          u[a][c] = values[cells.x[cell * n_x + a] + c];
-      for (int j = 0; j < n_p; ++j)
-        p[j] = values[cells.p[cell * n_p + j]];
+      gather(cells, cell, values, u, p);
 
       Batch value{}, r_u[n_x][dim] = {}, r_p[System::n_q] = {};
       Batch mass[System::n_q][System::n_q] = {}, first[System::n_q] = {}; // int N_j N_k, int N_j
@@ -299,6 +313,56 @@ namespace isochor
                   G += products[k].normal[i] * points[k].p_value[j];
                 out.G[j][dim * b + i] = sum(G);
               }
+        }
+    }
+
+    /// The change of the residual along a direction: dP = A : dF + dp dPhi/dF, without the cell's
+    /// matrix. C of @p out is that of the cell; its residual is overwritten.
+    void differential(const CellTables<dim>           &cells,
+                      const std::size_t                cell,
+                      const double                    *direction,
+                      const std::vector<PointTangent> &tangents,
+                      System                          &out) const
+    {
+      double du[n_x][dim], dp[System::n_q];
+      gather(cells, cell, direction, du, dp);
+
+      Batch r_u[n_x][dim] = {}, r_p[System::n_q] = {};
+      for (std::size_t k = 0; k < points.size(); ++k)
+        {
+          const PointTangent &at           = tangents[k];
+          Batch               dF[dim][dim] = {};
+          for (int a = 0; a < n_x; ++a)
+            for (int i = 0; i < dim; ++i)
+              for (int J = 0; J < dim; ++J)
+                dF[i][J] += du[a][i] * at.gradient[a][J];
+          Batch dq{}, strain{};
+          for (int j = 0; j < n_p; ++j)
+            dq += dp[j] * points[k].p_value[j];
+
+          for (int i = 0; i < dim; ++i)
+            for (int J = 0; J < dim; ++J)
+              {
+                Batch dP = dq * at.d_phi[i][J];
+                for (int l = 0; l < dim; ++l)
+                  for (int L = 0; L < dim; ++L)
+                    dP += at.A[i][J][l][L] * dF[l][L];
+                for (int a = 0; a < n_x; ++a)
+                  r_u[a][i] += dP * at.gradient[a][J];
+                strain += at.d_phi[i][J] * dF[i][J];
+              }
+          for (int j = 0; j < n_p; ++j)
+            r_p[j] += strain * points[k].p_value[j];
+        }
+
+      for (int a = 0; a < n_x; ++a)
+        for (int i = 0; i < dim; ++i)
+          out.r_u[dim * a + i] = sum(r_u[a][i]);
+      for (int j = 0; j < n_p; ++j)
+        {
+          out.r_p[j] = sum(r_p[j]);
+          for (int l = 0; l < n_p; ++l)
+            out.r_p[j] -= out.C[j][l] * dp[l];
         }
     }
 

@@ -26,6 +26,10 @@ namespace isochor
     const CellOffsets *offsets  = nullptr; ///< of the tangent
     /// The geometric stiffness of this stress in the place of the state's.
     const PredictedStress *stress = nullptr;
+    /// The tangent's product with this direction (ghosts up to date), without a matrix; not together
+    /// with a residual.
+    const Vector *direction = nullptr;
+    Vector       *product   = nullptr; ///< ghost entries are scratch
   };
 
   class Term

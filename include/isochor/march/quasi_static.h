@@ -60,6 +60,8 @@ namespace isochor
 
   struct MarchCallbacks
   {
+    /// Solves one load step in the place of Newton's method, from @p state; null: Newton's method.
+    std::function<NewtonReport(double load, ResidualSize &size, Vector &state)> solve;
     /// After each converged step, with the state.
     std::function<void(const LoadStep &, const Vector &state)> converged;
     /// After each failed step: why, and the next step tried.

@@ -5,6 +5,7 @@
 #include <isochor/element/element_table.h>
 #include <isochor/march/quasi_static.h>
 #include <isochor/scene/scene.h>
+#include <isochor/solver/dual_ascent.h>
 
 namespace isochor
 {
@@ -16,6 +17,8 @@ namespace isochor
     NewtonOptions     newton;
     SteppingOptions   stepping;
     unsigned int      nested_levels = 0; ///< coarser meshes that are solved on first
+    Solver            solver        = Solver::newton;
+    DualOptions       dual;
 
     static void   declare(dealii::ParameterHandler &prm);
     static Method parse(dealii::ParameterHandler &prm);

@@ -22,6 +22,9 @@ namespace isochor
                       const RunResult                     *check,
                       const std::map<std::string, double> &known_values);
 
+  /// Columns of the dual ascent's iterations, empty without one.
+  ResultRow dual_columns(const std::optional<DualReport> &dual);
+
   /// One row of results.csv; the columns are the same for all runs of a study.
   ResultRow result_row(const StudyPlan                &plan,
                        const PlannedRun               &planned,

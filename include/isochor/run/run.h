@@ -23,6 +23,7 @@ namespace isochor
     MarchReport                                      march;
     unsigned int                                     coarse_newton_iterations = 0;
     LinearStatistics                                 linear;
+    std::optional<DualReport>                        dual; ///< the most of any load step
     std::array<double, std::size_t(Phase::n_phases)> seconds{};
     double                                           seconds_total  = 0;
     double                                           peak_megabytes = 0; ///< largest rank

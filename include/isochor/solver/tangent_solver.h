@@ -11,6 +11,7 @@
 #include <isochor/core/names.h>
 #include <isochor/core/stopwatch.h>
 #include <isochor/form/equilibrium.h>
+#include <isochor/solver/matrix_free.h>
 #include <isochor/solver/newton.h>
 #include <isochor/solver/nodal_rotations.h>
 
@@ -21,13 +22,22 @@ namespace isochor
     automatic, ///< kept
     kept,      ///< MUMPS in single precision, kept over several Newton iterations
     direct,    ///< MUMPS in double precision, of every tangent
-    umfpack    ///< LU, of every tangent
+    umfpack,   ///< LU, of every tangent
+    cr,        ///< conjugate residuals without a matrix
+    cg         ///< conjugate gradients without a matrix
   };
   inline constexpr auto linear_solver_names
       = name_table<LinearSolver>({{LinearSolver::automatic, "automatic"},
                                   {LinearSolver::kept, "kept"},
                                   {LinearSolver::direct, "direct"},
-                                  {LinearSolver::umfpack, "UMFPACK"}});
+                                  {LinearSolver::umfpack, "UMFPACK"},
+                                  {LinearSolver::cr, "CR"},
+                                  {LinearSolver::cg, "CG"}});
+
+  inline bool is_matrix_free(const LinearSolver solver)
+  {
+    return solver == LinearSolver::cr || solver == LinearSolver::cg;
+  }
 
   /// Which unknowns are eliminated before the direct solver.
   enum class Condensation
@@ -90,6 +100,17 @@ namespace isochor
     /// Unknown for LU. Collective.
     void certify(const Vector &state, double load);
 
+    /// From now on every tangent goes through @p change before supports are applied; see
+    /// dual_ascent.h.
+    void change_tangents(std::function<void(SparseMatrix &)> change)
+    {
+      change_tangent = std::move(change);
+    }
+
+    /// Solve the system of the last correction() for another right-hand side, zero at the prescribed
+    /// unknowns, with the factors that are there. Collective.
+    NewtonProblem::Correction solve_again(const Vector &rhs, double tolerance, Vector &solution);
+
     const LinearStatistics &statistics() const
     {
       return counts;
@@ -105,6 +126,12 @@ namespace isochor
     std::unique_ptr<PredictedStress> predicted_stress(const Vector &state) const;
     Factorisation                    factor();
     Factorisation                    factor_or_use_double();
+    NewtonProblem::Correction        matrix_free_correction(const Vector &state,
+                                                            double        load,
+                                                            const Vector &residual,
+                                                            double        tolerance,
+                                                            Vector       &step,
+                                                            Vector       *rate);
     LinearSolve                      solve(const Vector &rhs, double tolerance, Vector &step);
     std::string                      complaint(const LinearSolve &outcome) const;
 
@@ -117,8 +144,10 @@ namespace isochor
     std::unique_ptr<DirectSolver> factors;
     DirectKind                    kind = DirectKind::mumps;
     /// FGMRES converges fast enough with the factors of an earlier tangent.
-    bool             are_kept = false;
-    Vector           linearised_at, last_step; ///< of the last correction; empty before
-    LinearStatistics counts;
+    bool   are_kept = false;
+    Vector linearised_at, last_step; ///< of the last correction; empty before
+    std::function<void(SparseMatrix &)>    change_tangent;
+    std::unique_ptr<MatrixFreeSolver<dim>> matrix_free; ///< null: factors
+    LinearStatistics                       counts;
   };
 } // namespace isochor
