@@ -97,6 +97,10 @@ namespace isochor
             << (outcome.failure.empty() ? "did not converge" : outcome.failure) << " in "
             << outcome.iterations << " iterations (relative residual " << outcome.relative_residual
             << ")";
+        // x . A r = r . A x, if A is symmetric; Ar is A x here.
+        product(Ap, r);
+        if (std::abs(dot(x, Ap) - dot(r, Ar)) > 1e-8 * std::sqrt(dot(r, r) * dot(Ar, Ar)))
+          why << "; the operator is not symmetric, as under a follower pressure";
         outcome.failure = why.str();
       }
     return outcome;

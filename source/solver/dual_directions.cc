@@ -72,7 +72,7 @@ namespace isochor
         rhs[i] = differences[i].gradient * steepest / length[i];
         for (unsigned int j = 0; j < n; ++j)
           gram(i, j) = differences[i].gradient * differences[j].steepest / (length[i] * length[j]);
-        gram(i, i) += 1e-10;
+        gram(i, i) += 1e-4;
       }
     gram.gauss_jordan();
     for (unsigned int i = 0; i < n; ++i)

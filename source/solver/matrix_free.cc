@@ -6,9 +6,8 @@ namespace isochor
 {
   namespace
   {
-    // CG and CR of the saddle point system of a slender body need thousands; a rounding error more
-    // and they never end.
-    constexpr unsigned int max_iterations = 20000;
+    // Without rounding both end after as many iterations as there are unknowns.
+    constexpr GlobalIndex iterations_per_unknown = 10, most_iterations = 20000;
   } // namespace
 
   template <int dim>
@@ -64,7 +63,8 @@ namespace isochor
         step,
         b,
         tolerance,
-        max_iterations);
+        std::min(iterations_per_unknown * equilibrium.discretisation().n_unknowns(),
+                 most_iterations));
     scale(step);
     step += gap;
     return outcome;

@@ -52,6 +52,7 @@ namespace
     DualOptions options;
     options.augmentation_poisson_ratio = augmentation;
     options.acceleration               = acceleration;
+    options.max_iterations             = 1000;
     return options;
   }
 
@@ -80,8 +81,6 @@ namespace
           }
         out() << "    acceleration takes fewer iterations: "
               << yes(iterations[1] < iterations[0] && iterations[2] < iterations[0]) << '\n';
-        std::cerr << "    " << iterations[0] << ' ' << iterations[1] << ' ' << iterations[2]
-                  << '\n';
       }
   }
 

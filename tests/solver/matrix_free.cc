@@ -85,13 +85,15 @@ namespace
         const Mesh<dim>          &mesh    = meshes[element.kind];
         const Discretisation<dim> discretisation(mesh.triangulation, element);
         Scene<dim>                scene = pressed<dim>(nu);
+        scene.pressures.clear();
+        scene.gravity[1]       = -0.2;
+        scene.material.density = 1.;
         scene.supports.push_back(
             held<dim>("right", "x", [](const dealii::Point<dim> &, const double load) {
               dealii::Tensor<1, dim> u;
               u[0] = 0.1 * load;
               return u;
             }));
-        scene.pressures[0].boundary = "top";
         SolveOptions options;
         options.tolerance = 1e-10;
         const auto direct = solve(mesh, discretisation, scene, options);
@@ -110,6 +112,22 @@ namespace
           }
         out() << '\n';
       }
+  }
+
+  /// Neither method is for the unsymmetric tangent of a follower pressure, and they say so.
+  void follower_pressure()
+  {
+    const auto              mesh = distorted_box<3>(2);
+    const Discretisation<3> discretisation(mesh->triangulation, find_element("P1-P1", ""));
+    SolveOptions            options;
+    options.tolerance     = 1e-10;
+    options.minimum_step  = 0.6;
+    options.linear.solver = LinearSolver::cg;
+    const auto solution   = solve(*mesh, discretisation, pressed<3>(0.49), options);
+    const auto reason     = solution.report.reason;
+    out() << "follower pressure: " << run_status_names.name(solution.report.status)
+          << ", and says why: " << yes(reason.find("is not symmetric") != std::string::npos)
+          << '\n';
   }
 
   /// diag(1, -1, 1, -1, ...) and b = (1, 1, ...): b . A b = 0 stops both methods at once.
@@ -136,5 +154,6 @@ int main(int argc, char **argv)
   products<3>();
   states<2>();
   states<3>();
+  follower_pressure();
   breakdown();
 }
