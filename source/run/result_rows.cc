@@ -269,7 +269,7 @@ namespace isochor
     out << "total " << number(result.seconds_total, "%.3f") << '\n'
         << "per Newton step    assembly "
         << number(1e6 * seconds(result, Phase::assembly)
-                      / std::max<double>(1., double(result.cells) * result.linear.factorisations),
+                      / std::max<double>(1., double(result.cells) * result.march.newton_iterations),
                   "%.2f")
         << " microseconds per cell\n"
         << "memory             " << number(result.peak_megabytes, "%.0f") << " MB at most, factors "

@@ -63,7 +63,9 @@ namespace
     const auto                newton = solved(mesh, discretisation, poisson_ratio, {});
     out() << "  " << element.name << " in " << dim << "D, nu = " << poisson_ratio << '\n';
     std::array<unsigned int, 3> iterations;
-    for (const double augmentation : {0.4, 0.})
+    // The test of three dimensions is to be short.
+    for (const double augmentation :
+         dim == 2 ? std::vector<double>{0.4, 0.} : std::vector<double>{0.4})
       {
         for (const auto acceleration :
              {DualAcceleration::none, DualAcceleration::cg, DualAcceleration::anderson})
@@ -91,8 +93,7 @@ namespace
     for (const auto &[name, nu] : {std::pair("P1-P1", 0.49),
                                    std::pair("P1-P1s", 0.5),
                                    std::pair("P2-P1", 0.5),
-                                   std::pair("Q2-P1", 0.49),
-                                   std::pair("Q2-P1", 0.5)})
+                                   std::pair("Q2-P1", 0.49)})
       {
         const Element &element = find_element(name, "");
         same_as_newton(meshes[element.kind], element, nu);
