@@ -49,10 +49,10 @@ namespace isochor
     , offsets(make_pattern(discretisation, pattern))
   {
     const Material &material = scene.material;
-    const Moduli    moduli   = isochor::moduli(material);
-    is_compressible_         = std::isfinite(moduli.kappa);
+    moduli_                  = isochor::moduli(material);
+    is_compressible_         = std::isfinite(moduli_.kappa);
     auto elasticity          = std::make_unique<Elasticity<dim>>(
-        discretisation, material.energy, material.volumetric_strain, moduli, compliance);
+        discretisation, material.energy, material.volumetric_strain, moduli_, compliance);
     is_linear_ = elasticity->is_linear() && scene.pressures.empty();
     internal   = std::move(elasticity);
     if (scene.gravity.norm() > 0)

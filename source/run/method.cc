@@ -79,6 +79,7 @@ namespace isochor
   void Method::declare(dealii::ParameterHandler &prm)
   {
     const ComplianceOptions compliance;
+    const LinearOptions     linear;
     prm.enter_subsection("Method");
     prm.declare_entry(
         "Element",
@@ -107,13 +108,22 @@ namespace isochor
                       "pressures, cell by cell. pressure: a continuous pressure with the lumped "
                       "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
                       "there is something to eliminate.");
-    prm.declare_entry("Linear solver",
-                      linear_solver_names.name(LinearSolver::automatic),
-                      dealii::Patterns::Selection(linear_solver_names.selection()),
-                      "kept: MUMPS' LDL^T in single precision, kept over several Newton iterations "
-                      "as the preconditioner of FGMRES. direct: MUMPS' LDL^T in double precision, "
-                      "anew in every iteration. UMFPACK: LU, likewise, one rank. All but UMFPACK "
-                      "count negative pivots. automatic: kept.");
+    prm.declare_entry(
+        "Linear solver",
+        linear_solver_names.name(LinearSolver::automatic),
+        dealii::Patterns::Selection(linear_solver_names.selection()),
+        "kept: MUMPS' LDL^T in single precision, kept over several Newton iterations "
+        "as the preconditioner of FGMRES. direct: MUMPS' LDL^T in double precision, "
+        "anew in every iteration. UMFPACK: LU, likewise, one rank. block: FGMRES with "
+        "algebraic multigrid for displacements and a mass matrix for pressures; no "
+        "factors, for stable mixed elements on fine meshes. kept and direct count "
+        "negative pivots. automatic: kept; block if the factors do not fit into "
+        "Memory limit or, for a stable element, take longer than its iterations.");
+    prm.declare_entry("Memory limit",
+                      to_text(linear.memory_limit),
+                      NumberPattern::at_least(0),
+                      "Of the factors, all MPI ranks together, MB (1e6 bytes). 0: 80 % of what the "
+                      "machines have available when the run starts.");
     prm.declare_entry(
         "Nested levels",
         "0",
@@ -139,6 +149,7 @@ namespace isochor
         = linear_solver_names.value(prm.get("Linear solver"), "Method/Linear solver");
     method.linear.condensation
         = condensation_names.value(prm.get("Condensation"), "Method/Condensation");
+    method.linear.memory_limit = parse_number(prm.get("Memory limit"), "Method/Memory limit");
     method.stepping.parse(prm);
     method.newton.parse(prm);
     prm.leave_subsection();

@@ -68,6 +68,10 @@ namespace isochor
     {
       return is_compressible_;
     }
+    const Moduli &moduli() const
+    {
+      return moduli_;
+    }
     const Discretisation<dim> &discretisation() const
     {
       return discretisation_;
@@ -85,6 +89,7 @@ namespace isochor
     CellOffsets                        offsets;
     std::unique_ptr<Elasticity<dim>>   internal;
     std::vector<std::unique_ptr<Term>> loads;
+    Moduli                             moduli_;
     bool                               is_compressible_ = true;
     bool                               is_linear_       = false;
     double                             volume_scale     = 0; ///< |int N_p|
