@@ -107,7 +107,7 @@ namespace isochor
                       "same. cells: bubbles and, at a Poisson ratio below 0.5, discontinuous "
                       "pressures, cell by cell. pressure: a continuous pressure with the lumped "
                       "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
-                      "there is something to eliminate.");
+                      "there is something to eliminate; bubbles alone before Linear solver = block.");
     prm.declare_entry(
         "Linear solver",
         linear_solver_names.name(LinearSolver::automatic),

@@ -26,7 +26,7 @@ namespace isochor
     unsigned int krylov_iterations = 0;
     double       worst_residual    = 0; ///< largest true relative residual of a solve
     /// Negative pivots minus pressure unknowns at the last factorisation: 0 certifies a stable
-    /// equilibrium; unknown for LU.
+    /// equilibrium; unknown for LU, block.
     std::optional<long long> pivot_excess;
     std::size_t              null_pivots         = 0; ///< at the last factorisation
     double                   flops               = 0; ///< of one factorisation
@@ -60,7 +60,7 @@ namespace isochor
 
     /// Factor the tangent at @p state for its negative pivots: statistics().pivot_excess, in
     /// double precision wherever single precision shows anything but a stable equilibrium.
-    /// Unknown for LU. Collective.
+    /// Unknown for LU and block. Collective.
     void certify(const Vector &state, double load);
 
     const LinearStatistics &statistics() const
