@@ -100,14 +100,15 @@ namespace isochor
                       dealii::Patterns::Selection(std::string(consistent) + "|" + lumped),
                       "C = int N_p N_q / kappa, or the diagonal matrix of its row sums (lumped; "
                       "continuous linear pressures).");
-    prm.declare_entry("Condensation",
-                      condensation_names.name(Condensation::automatic),
-                      dealii::Patterns::Selection(condensation_names.selection()),
-                      "Unknowns that are eliminated before the linear solver; the result is the "
-                      "same. cells: bubbles and, at a Poisson ratio below 0.5, discontinuous "
-                      "pressures, cell by cell. pressure: a continuous pressure with the lumped "
-                      "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
-                      "there is something to eliminate; bubbles alone before Linear solver = block.");
+    prm.declare_entry(
+        "Condensation",
+        condensation_names.name(Condensation::automatic),
+        dealii::Patterns::Selection(condensation_names.selection()),
+        "Unknowns that are eliminated before the linear solver; the result is the "
+        "same. cells: bubbles and, at a Poisson ratio below 0.5, discontinuous "
+        "pressures, cell by cell. pressure: a continuous pressure with the lumped "
+        "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
+        "there is something to eliminate; bubbles alone before Linear solver = block.");
     prm.declare_entry(
         "Linear solver",
         linear_solver_names.name(LinearSolver::automatic),

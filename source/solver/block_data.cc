@@ -93,13 +93,16 @@ namespace isochor
         this->retained.begin(), this->retained.end(), discretisation.n_owned_displacements);
     displacements
         = make_subset(discretisation.partitioner, {this->retained.begin(), first_pressure});
-    pressures = make_subset(discretisation.partitioner, {first_pressure, this->retained.end()});
     data_.n_components = dim;
     find_positions();
     make_stiffness_pattern();
     // Pressures may all have been eliminated.
-    if (pressures.partitioner->size() > 0)
-      make_schur();
+    const std::vector<LocalIndex> owned_pressures(first_pressure, this->retained.end());
+    if (dealii::Utilities::MPI::sum(owned_pressures.size(), discretisation.communicator()) > 0)
+      {
+        pressures = make_subset(discretisation.partitioner, owned_pressures);
+        make_schur();
+      }
   }
 
   template <int dim>

@@ -23,8 +23,10 @@ namespace isochor
     constexpr double worth_keeping = 1.5;
     // Of the memory that is available, for factors that nobody limits.
     constexpr double usable_share = 0.8;
-    // Operations of a factorisation per entry of the matrix above which the block solver is faster.
-    constexpr double worthwhile_flops = 1e5;
+    // Operations of a factorisation per entry of the matrix above which the block solver takes over.
+    // Its linear algebra took as long as that of kept factors at 2e3 to 6e3 (P1-P1s in 3D, 24,000 to
+    // 75,000 unknowns); far from equilibrium it is slower and it counts no pivots, hence the margin.
+    constexpr double worthwhile_flops = 3e4;
     constexpr double rate_tolerance   = 1e-6;
 
     unsigned int max_iterations(const LinearSolver solver)

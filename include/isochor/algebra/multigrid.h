@@ -20,7 +20,7 @@ namespace isochor
                unsigned int                            n_components,
                const std::vector<std::vector<double>> &modes);
 
-    /// @p out = one V-cycle on @p in, owned rows. Collective.
+    /// @p out = one W-cycle on @p in, owned rows. Collective.
     void apply(double *out, const double *in) const;
 
   private:

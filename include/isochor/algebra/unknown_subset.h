@@ -18,7 +18,8 @@ namespace isochor
     std::vector<LocalIndex> local;
   };
 
-  /// @p owned: local indices of the subset's unknowns of this rank, ascending. Collective.
+  /// @p owned: local indices of the subset's unknowns of this rank, ascending; of all ranks not none.
+  /// Collective.
   UnknownSubset make_subset(const std::shared_ptr<const SparseMatrix::Partitioner> &whole,
                             const std::vector<LocalIndex>                          &owned);
 } // namespace isochor
