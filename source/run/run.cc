@@ -194,7 +194,7 @@ namespace isochor
     TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
     if (const std::string &note = tangent_solver.statistics().note; talks && !note.empty())
       std::cout << "  " << note << '\n';
-    Vector             scratch(state.get_partitioner()), reactions(scratch);
+    Vector scratch(state.get_partitioner()), reactions(scratch);
 
     const auto stability = [&](const Vector &at) {
       const auto scope = stopwatch.measure(Phase::output);
