@@ -4,12 +4,16 @@
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace isochor
 {
   namespace
   {
+    /// FGMRES keeps two vectors for each iteration until it starts again.
+    constexpr unsigned int max_basis = 60;
+
     /// Vector::l2_norm() stops a Debug program at a NaN, which here is an answer.
     double norm(const Vector &v)
     {
@@ -74,7 +78,7 @@ namespace isochor
     // The residual of the iteration is an estimate, hence a little further than needed.
     dealii::SolverControl        control(max_iterations, .9 * tolerance * norm_b, false, false);
     dealii::SolverFGMRES<Vector> fgmres(
-        control, dealii::SolverFGMRES<Vector>::AdditionalData(max_iterations));
+        control, dealii::SolverFGMRES<Vector>::AdditionalData(std::min(max_iterations, max_basis)));
     try
       {
         fgmres.solve(matrix, x, b, Preconditioner{factors});

@@ -206,6 +206,12 @@ namespace isochor
   }
 
   template <typename number>
+  double Mumps<number>::predicted_flops() const
+  {
+    return mumps.rinfog[1 - 1];
+  }
+
+  template <typename number>
   Factorisation Mumps<number>::factor(const SparseMatrix &matrix)
   {
     AssertDimension(mumps.n, int(matrix.partitioner()->size()));

@@ -50,10 +50,9 @@ namespace isochor
     , offsets(make_pattern(discretisation, pattern))
   {
     const Material &material = scene.material;
-    const Moduli    moduli   = isochor::moduli(material);
-    moduli_                  = moduli;
+    moduli_                  = isochor::moduli(material);
     auto elasticity          = std::make_unique<Elasticity<dim>>(
-        discretisation, material.energy, material.volumetric_strain, moduli, compliance);
+        discretisation, material.energy, material.volumetric_strain, moduli_, compliance);
     is_linear_ = elasticity->is_linear() && scene.pressures.empty();
     internal   = std::move(elasticity);
     if (scene.gravity.norm() > 0)
@@ -77,7 +76,7 @@ namespace isochor
     if (discretisation.n_pressures > 0)
       {
         diagonal_ = PressureMass<dim>(discretisation).diagonal();
-        diagonal_ *= 1. / moduli.mu + moduli.compliance();
+        diagonal_ *= 1. / moduli_.mu + moduli.compliance();
       }
     double squared = 0;
     for (LocalIndex i = 0; i < discretisation.n_owned_displacements; ++i)

@@ -117,6 +117,7 @@ namespace isochor
   void Method::declare(dealii::ParameterHandler &prm)
   {
     const ComplianceOptions compliance;
+    const LinearOptions     linear;
     prm.enter_subsection("Method");
     prm.declare_entry(
         "Element",
@@ -137,23 +138,33 @@ namespace isochor
                       dealii::Patterns::Selection(std::string(consistent) + "|" + lumped),
                       "C = int N_p N_q / kappa, or the diagonal matrix of its row sums (lumped; "
                       "continuous linear pressures).");
-    prm.declare_entry("Condensation",
-                      condensation_names.name(Condensation::automatic),
-                      dealii::Patterns::Selection(condensation_names.selection()),
-                      "Unknowns that are eliminated before the linear solver; the result is the "
-                      "same. cells: bubbles and, at a Poisson ratio below 0.5, discontinuous "
-                      "pressures, cell by cell. pressure: a continuous pressure with the lumped "
-                      "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
-                      "there is something to eliminate.");
-    prm.declare_entry("Linear solver",
-                      linear_solver_names.name(LinearSolver::automatic),
-                      dealii::Patterns::Selection(linear_solver_names.selection()),
-                      "kept: MUMPS' LDL^T in single precision, kept over several Newton iterations "
-                      "as the preconditioner of FGMRES. direct: MUMPS' LDL^T in double precision, "
-                      "anew in every iteration. UMFPACK: LU, likewise, one rank. CR, CG: conjugate "
-                      "residuals or gradients with diagonal scaling and without a matrix; many "
-                      "iterations, and either may break down on a mixed element. MUMPS' count "
-                      "negative pivots. automatic: kept.");
+    prm.declare_entry(
+        "Condensation",
+        condensation_names.name(Condensation::automatic),
+        dealii::Patterns::Selection(condensation_names.selection()),
+        "Unknowns that are eliminated before the linear solver; the result is the "
+        "same. cells: bubbles and, at a Poisson ratio below 0.5, discontinuous "
+        "pressures, cell by cell. pressure: a continuous pressure with the lumped "
+        "compliance matrix, at a Poisson ratio below 0.5. automatic: cells, where "
+        "there is something to eliminate; bubbles alone before Linear solver = block.");
+    prm.declare_entry(
+        "Linear solver",
+        linear_solver_names.name(LinearSolver::automatic),
+        dealii::Patterns::Selection(linear_solver_names.selection()),
+        "kept: MUMPS' LDL^T in single precision, kept over several Newton iterations "
+        "as the preconditioner of FGMRES. direct: MUMPS' LDL^T in double precision, "
+        "anew in every iteration. UMFPACK: LU, likewise, one rank. block: FGMRES with "
+        "algebraic multigrid for displacements and a mass matrix for pressures; no "
+        "factors, for stable mixed elements on fine meshes. CR, CG: conjugate residuals or "
+        "gradients with diagonal scaling and without a matrix; many iterations, and either may "
+        "break down on a mixed element. kept and direct count negative pivots. automatic: kept; "
+        "block if the factors do not fit into Memory limit or, for a stable element, take longer "
+        "than its iterations.");
+    prm.declare_entry("Memory limit",
+                      to_text(linear.memory_limit),
+                      NumberPattern::at_least(0),
+                      "Of the factors, all MPI ranks together, MB (1e6 bytes). 0: 80 % of what the "
+                      "machines have available when the run starts.");
     prm.declare_entry(
         "Nested levels",
         "0",
@@ -187,6 +198,7 @@ namespace isochor
         = linear_solver_names.value(prm.get("Linear solver"), "Method/Linear solver");
     method.linear.condensation
         = condensation_names.value(prm.get("Condensation"), "Method/Condensation");
+    method.linear.memory_limit = parse_number(prm.get("Memory limit"), "Method/Memory limit");
     method.stepping.parse(prm);
     method.newton.parse(prm);
     method.solver = solver_names.value(prm.get("Solver"), "Method/Solver");

@@ -116,6 +116,8 @@ namespace isochor
     for (std::size_t k = 0; k < result.seconds.size(); ++k)
       add("seconds " + name_of(static_cast<Phase>(k)), csv_number(result.seconds[k]));
     add("seconds total", csv_number(result.seconds_total));
+    add("predicted factors memory MB", csv_number(result.linear.predicted_megabytes));
+    add("factors memory MB", csv_number(result.linear.megabytes));
     add("peak memory MB", csv_number(result.peak_megabytes));
     // A run that did not converge has no probe values to compare; steps.csv has its history.
     for (std::size_t k = 0; k < probe_columns.size(); ++k)

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iostream>
 
 namespace isochor
 {
@@ -196,7 +197,9 @@ namespace isochor
     settings.before_output();
 
     TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
-    Vector             scratch(state.get_partitioner()), reactions(scratch);
+    if (const std::string &note = tangent_solver.statistics().note; talks && !note.empty())
+      std::cout << "  " << note << '\n';
+    Vector scratch(state.get_partitioner()), reactions(scratch);
 
     const auto stability = [&](const Vector &at) {
       const auto scope = stopwatch.measure(Phase::output);
@@ -307,6 +310,8 @@ namespace isochor
     const auto warnings
         = warnings_of(result, method.element, scene.material, trust_figures(equilibrium, state));
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+    if (!result.linear.note.empty())
+      result.warnings.push_back(result.linear.note);
     return result;
   }
 

@@ -1,6 +1,10 @@
+#include <isochor/core/error.h>
+#include <isochor/core/memory.h>
 #include <isochor/form/predicted_stress.h>
 #include <isochor/solver/tangent_solver.h>
 
+#include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace isochor
@@ -9,61 +13,33 @@ namespace isochor
   {
     // Newton corrects what a solve leaves, but a direct solver in double precision that leaves more
     // than this has met a singular matrix.
-    constexpr double       acceptable_residual   = 1e-5;
-    constexpr unsigned int max_krylov_iterations = 60;
+    constexpr double acceptable_residual = 1e-5;
+    // Far from equilibrium the tangent has negative eigenvalues, on which the block solver stagnates
+    // at some per cent: still a step of inexact Newton.
+    constexpr double acceptable_block_residual = 0.1;
     // More, and new factors are cheaper.
-    constexpr unsigned int max_krylov_iterations_with_kept_factors = 10;
-    constexpr double       rate_tolerance                          = 1e-6;
+    constexpr unsigned int max_iterations_with_kept_factors = 10;
+    // The same of a kept block preconditioner, against the iterations per digit when it was new.
+    constexpr double worth_keeping = 1.5;
+    // Of the memory that is available, for factors that nobody limits.
+    constexpr double usable_share = 0.8;
+    // Operations of a factorisation per entry of the matrix above which the block solver takes over.
+    // Its linear algebra took as long as that of kept factors at 2e3 to 6e3 (P1-P1s in 3D, 24,000 to
+    // 75,000 unknowns); far from equilibrium it is slower and it counts no pivots, hence the margin.
+    constexpr double worthwhile_flops = 3e4;
+    constexpr double rate_tolerance   = 1e-6;
     // Of a linear problem, which is to take one iteration with factors.
     constexpr double smallest_matrix_free_tolerance = 1e-10;
 
-    /// Groups of owned unknowns to eliminate.
-    template <int dim>
-    std::vector<CondensedSolver::Group> eliminated_groups(const Equilibrium<dim> &equilibrium,
-                                                          const Condensation      condensation)
+    unsigned int max_iterations(const LinearSolver solver)
     {
-      const Discretisation<dim>          &discretisation = equilibrium.discretisation();
-      std::vector<CondensedSolver::Group> groups;
-      if (condensation == Condensation::pressure)
-        for (LocalIndex i = discretisation.n_owned_displacements;
-             i < discretisation.cells.n_owned_unknowns;
-             ++i)
-          groups.emplace_back(i, 1);
-      else if (condensation != Condensation::none)
-        {
-          groups = discretisation.interior_displacements;
-          if (equilibrium.is_compressible())
-            groups.insert(groups.end(),
-                          discretisation.interior_pressures.begin(),
-                          discretisation.interior_pressures.end());
-        }
-      return groups;
+      return solver == LinearSolver::block ? 150 : 60;
     }
 
-    template <int dim>
-    std::unique_ptr<DirectSolver> make_solver(const Equilibrium<dim> &equilibrium,
-                                              const DirectKind        kind,
-                                              const Condensation      condensation)
+    /// Iterations per digit.
+    double effort(const LinearSolve &outcome)
     {
-      const MPI_Comm communicator = equilibrium.discretisation().communicator();
-      auto           solver       = make_direct_solver(kind, communicator);
-      auto           groups       = eliminated_groups(equilibrium, condensation);
-      if (dealii::Utilities::MPI::sum(groups.size(), communicator) == 0)
-        return solver;
-      return std::make_unique<CondensedSolver>(std::move(solver), std::move(groups));
-    }
-
-    DirectKind kind_of(const LinearSolver solver)
-    {
-      switch (solver)
-        {
-          case LinearSolver::direct:
-            return DirectKind::mumps;
-          case LinearSolver::umfpack:
-            return DirectKind::umfpack;
-          default:
-            return DirectKind::single_mumps;
-        }
+      return outcome.krylov_iterations / std::max(1., -std::log10(outcome.relative_residual));
     }
 
     /// -d(residual) / d(load) and the rate of the prescribed unknowns. Loads are affine in the load
@@ -96,31 +72,70 @@ namespace isochor
     : equilibrium(equilibrium)
     , options(options)
     , stopwatch(stopwatch)
+    , memory_limit(options.memory_limit > 0
+                       ? options.memory_limit
+                       : usable_share
+                             * available_megabytes(equilibrium.discretisation().communicator()))
     , rotations(equilibrium.discretisation(), equilibrium.prescribed())
   {
     if (is_matrix_free(options.solver))
-      matrix_free = std::make_unique<MatrixFreeSolver<dim>>(
-          equilibrium,
-          options.solver == LinearSolver::cr ? KrylovMethod::conjugate_residuals
-                                             : KrylovMethod::conjugate_gradients);
-    else
       {
-        matrix = equilibrium.make_matrix();
-        use(kind_of(options.solver));
+        matrix_free = std::make_unique<MatrixFreeSolver<dim>>(
+            equilibrium,
+            options.solver == LinearSolver::cr ? KrylovMethod::conjugate_residuals
+                                               : KrylovMethod::conjugate_gradients);
+        return;
       }
+    matrix = equilibrium.make_matrix();
+    if (options.solver == LinearSolver::automatic)
+      choose();
+    else if (const std::string refusal = use(options.solver); !refusal.empty())
+      throw UserError("Method/Memory limit: " + refusal
+                      + "; choose Method/Linear solver = block or automatic, a coarser mesh, or a "
+                        "higher limit");
   }
 
   template <int dim>
-  void TangentSolver<dim>::use(const DirectKind new_kind)
+  void TangentSolver<dim>::choose()
+  {
+    counts.note = use(LinearSolver::kept);
+    if (counts.note.empty() && equilibrium.discretisation().element.is_stable
+        && options.condensation != Condensation::pressure)
+      {
+        const double entries = dealii::Utilities::MPI::sum(
+            double(matrix.columns().size()), equilibrium.discretisation().communicator());
+        const double flops = backend->factors().predicted_flops();
+        if (flops > worthwhile_flops * entries)
+          {
+            std::ostringstream note;
+            note << "factors would take " << std::setprecision(3) << flops / 1e9 << " GFlop and "
+                 << counts.predicted_megabytes << " MB";
+            counts.note = note.str();
+          }
+      }
+    if (counts.note.empty())
+      return;
+    use(LinearSolver::block);
+    counts.note += ": the block solver is used, which does not count negative pivots";
+  }
+
+  template <int dim>
+  std::string TangentSolver<dim>::use(const LinearSolver solver)
   {
     const auto scope = stopwatch.measure(Phase::factorisation);
     are_kept         = false;
-    kind             = new_kind;
-    factors          = make_solver(equilibrium, kind, options.condensation);
-    if (kind == DirectKind::single_mumps)
-      factors = std::make_unique<TurnedSolver<dim>>(std::move(factors), rotations);
-    factors->analyse(
-        matrix, equilibrium.discretisation().node_of_row, equilibrium.discretisation().n_nodes);
+    backend.reset(); // its memory goes before the new one's comes
+    backend = std::make_unique<LinearBackend<dim>>(
+        equilibrium, solver, options.condensation, rotations, matrix);
+    const double megabytes = backend->factors().predicted_megabytes();
+    if (megabytes > 0.)
+      counts.predicted_megabytes = megabytes;
+    if (megabytes <= memory_limit)
+      return "";
+    std::ostringstream why;
+    why << "factors would take " << megabytes << " MB, the memory limit is " << std::setprecision(4)
+        << memory_limit << " MB";
+    return why.str();
   }
 
   template <int dim>
@@ -159,10 +174,11 @@ namespace isochor
   }
 
   template <int dim>
-  Factorisation TangentSolver<dim>::factor()
+  Factorisation TangentSolver<dim>::factor(const Vector &state)
   {
-    const auto          scope         = stopwatch.measure(Phase::factorisation);
-    const Factorisation factorisation = factors->factor(matrix);
+    const auto scope = stopwatch.measure(Phase::factorisation);
+    backend->start(state, scaling);
+    const Factorisation factorisation = backend->factors().factor(matrix);
     ++counts.factorisations;
     counts.flops       = factorisation.flops;
     counts.megabytes   = factorisation.megabytes;
@@ -175,14 +191,19 @@ namespace isochor
   }
 
   template <int dim>
-  Factorisation TangentSolver<dim>::factor_or_use_double()
+  Factorisation TangentSolver<dim>::factor_or_use_double(const Vector &state)
   {
-    const Factorisation factorisation = factor();
-    if (factorisation.succeeded || kind != DirectKind::single_mumps)
+    const Factorisation factorisation = factor(state);
+    if (factorisation.succeeded || backend->solver() != LinearSolver::kept)
       return factorisation;
     counts.gave_up_single_precision = true;
-    use(DirectKind::mumps);
-    return factor();
+    if (const std::string refusal = use(LinearSolver::direct); !refusal.empty())
+      {
+        Factorisation refused;
+        refused.failure = factorisation.failure + "; in double precision, " + refusal;
+        return refused;
+      }
+    return factor(state);
   }
 
   template <int dim>
@@ -235,27 +256,40 @@ namespace isochor
       {
         are_kept = false;
         rotations.start(state);
-        Factorisation factorisation = factor_or_use_double();
+        Factorisation factorisation = factor_or_use_double(state);
         if (stress && counts.pivot_excess.value_or(0) > 0)
           {
             // Far from a solution the prediction may be one of compression.
             linearise(nullptr);
-            factorisation = factor_or_use_double();
+            factorisation = factor_or_use_double(state);
           }
         if (!factorisation.succeeded)
           return {false, factorisation.failure};
         is_solved = solve_all();
-        if (!is_solved && kind == DirectKind::single_mumps)
+        if (!is_solved && backend->solver() == LinearSolver::block
+            && options.solver == LinearSolver::automatic
+            && counts.predicted_megabytes <= memory_limit)
+          {
+            counts.note.clear();
+            use(LinearSolver::kept);
+            if (const Factorisation again = factor_or_use_double(state); !again.succeeded)
+              return {false, again.failure};
+            is_solved = solve_all();
+          }
+        if (!is_solved && backend->solver() == LinearSolver::kept)
           {
             counts.gave_up_single_precision = true;
-            use(DirectKind::mumps);
-            if (const Factorisation again = factor(); !again.succeeded)
+            if (const std::string refusal = use(LinearSolver::direct); !refusal.empty())
+              return {false, refusal};
+            if (const Factorisation again = factor(state); !again.succeeded)
               return {false, again.failure};
             is_solved = solve_all();
           }
       }
-    are_kept = is_solved && kind == DirectKind::single_mumps
-               && outcome.krylov_iterations <= max_krylov_iterations_with_kept_factors;
+    if (!are_kept)
+      fresh_effort = effort(outcome);
+    are_kept = is_solved && backend->is_preconditioner()
+               && outcome.krylov_iterations <= max_iterations_when_kept(tolerance);
     if (!is_solved)
       return {false, complaint(outcome)};
     scaling.apply(step);
@@ -308,19 +342,32 @@ namespace isochor
   }
 
   template <int dim>
+  unsigned int TangentSolver<dim>::max_iterations_when_kept(const double tolerance) const
+  {
+    if (backend->solver() == LinearSolver::kept)
+      return max_iterations_with_kept_factors;
+    return 5
+           + static_cast<unsigned int>(worth_keeping * fresh_effort
+                                       * std::max(1., -std::log10(tolerance)));
+  }
+
+  template <int dim>
   LinearSolve TangentSolver<dim>::solve(const Vector &rhs, const double tolerance, Vector &step)
   {
-    const auto  scope = stopwatch.measure(Phase::solve);
-    LinearSolve outcome
-        = checked_solve(matrix,
-                        *factors,
-                        step,
-                        rhs,
-                        tolerance,
-                        are_kept ? max_krylov_iterations_with_kept_factors : max_krylov_iterations);
+    const auto  scope   = stopwatch.measure(Phase::solve);
+    LinearSolve outcome = checked_solve(matrix,
+                                        backend->factors(),
+                                        step,
+                                        rhs,
+                                        tolerance,
+                                        are_kept ? max_iterations_when_kept(tolerance)
+                                                 : max_iterations(backend->solver()));
     counts.krylov_iterations += outcome.krylov_iterations;
-    if (kind != DirectKind::single_mumps)
-      outcome.succeeded |= outcome.relative_residual <= acceptable_residual; // NaN fails
+    // Written so that NaN fails.
+    if (backend->solver() == LinearSolver::block)
+      outcome.succeeded |= !are_kept && outcome.relative_residual <= acceptable_block_residual;
+    else if (backend->solver() != LinearSolver::kept)
+      outcome.succeeded |= outcome.relative_residual <= acceptable_residual;
     if (outcome.succeeded)
       counts.worst_residual = std::max(counts.worst_residual, outcome.relative_residual);
     return outcome;
@@ -333,25 +380,30 @@ namespace isochor
     why << "the linear solve left a relative residual of " << outcome.relative_residual;
     if (counts.null_pivots > 0)
       why << "; the tangent is singular (" << counts.null_pivots << " null pivots)";
+    if (backend->solver() == LinearSolver::block)
+      why << " after " << outcome.krylov_iterations
+          << " iterations with the block preconditioner, which suits stable mixed elements, and "
+             "displacement elements far from a Poisson ratio of 0.5, on the way to a stable "
+             "equilibrium; choose Method/Linear solver = kept or direct, or a stable element";
     return why.str();
   }
 
   template <int dim>
   void TangentSolver<dim>::certify(const Vector &state, const double load)
   {
-    if (kind == DirectKind::umfpack || matrix_free)
+    if (matrix_free || backend->solver() == LinearSolver::umfpack
+        || backend->solver() == LinearSolver::block)
       return;
     are_kept = false;
     state.update_ghost_values();
     assemble(state, load, nullptr, {});
-    factor_or_use_double();
-    if (kind == DirectKind::single_mumps && counts.pivot_excess != 0)
+    factor_or_use_double(state);
+    if (backend->solver() == LinearSolver::kept && counts.pivot_excess != 0)
       {
-        auto single = std::move(factors);
-        use(DirectKind::mumps);
-        factor();
-        factors = std::move(single);
-        kind    = DirectKind::single_mumps;
+        auto single = std::move(backend);
+        if (use(LinearSolver::direct).empty())
+          factor(state);
+        backend = std::move(single);
       }
   }
 

@@ -24,6 +24,15 @@ namespace isochor
                  const std::vector<GlobalIndex> &node_of_row,
                  GlobalIndex                     n_nodes) override;
 
+    double predicted_megabytes() const override
+    {
+      return solver->predicted_megabytes();
+    }
+    double predicted_flops() const override
+    {
+      return solver->predicted_flops();
+    }
+
     /// Negative pivots count those of the eliminated blocks too (Haynsworth's inertia additivity).
     /// The block of a group and its couplings are read from the group's rows, as if the matrix were
     /// symmetric there. Throws std::logic_error if groups couple.

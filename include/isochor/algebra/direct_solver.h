@@ -48,6 +48,12 @@ namespace isochor
       return 0.;
     }
 
+    /// The same of its operations; 0: not known.
+    virtual double predicted_flops() const
+    {
+      return 0.;
+    }
+
     /// Numeric factorisation; analyse() must have seen the same pattern. Collective.
     virtual Factorisation factor(const SparseMatrix &matrix) = 0;
 

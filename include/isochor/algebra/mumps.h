@@ -31,6 +31,7 @@ namespace isochor
                  GlobalIndex                     n_nodes) override;
 
     double predicted_megabytes() const override;
+    double predicted_flops() const override;
 
     /// A singular matrix does not succeed; null_pivots says how far it is from having full rank.
     Factorisation factor(const SparseMatrix &matrix) override;

@@ -62,6 +62,10 @@ namespace isochor
     {
       return solver->predicted_megabytes();
     }
+    double predicted_flops() const override
+    {
+      return solver->predicted_flops();
+    }
     Factorisation factor(const SparseMatrix &matrix) override
     {
       return solver->factor(matrix);

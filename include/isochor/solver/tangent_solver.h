@@ -6,57 +6,18 @@
 // for this tangent and the next ones, until that takes too many iterations. Where single precision
 // does not do (a matrix close to singular), double precision takes over for good.
 
-#include <isochor/algebra/condensed_solver.h>
-#include <isochor/algebra/symmetric_scaling.h>
-#include <isochor/core/names.h>
 #include <isochor/core/stopwatch.h>
-#include <isochor/form/equilibrium.h>
+#include <isochor/solver/linear_backend.h>
 #include <isochor/solver/matrix_free.h>
 #include <isochor/solver/newton.h>
-#include <isochor/solver/nodal_rotations.h>
 
 namespace isochor
 {
-  enum class LinearSolver
-  {
-    automatic, ///< kept
-    kept,      ///< MUMPS in single precision, kept over several Newton iterations
-    direct,    ///< MUMPS in double precision, of every tangent
-    umfpack,   ///< LU, of every tangent
-    cr,        ///< conjugate residuals without a matrix
-    cg         ///< conjugate gradients without a matrix
-  };
-  inline constexpr auto linear_solver_names
-      = name_table<LinearSolver>({{LinearSolver::automatic, "automatic"},
-                                  {LinearSolver::kept, "kept"},
-                                  {LinearSolver::direct, "direct"},
-                                  {LinearSolver::umfpack, "UMFPACK"},
-                                  {LinearSolver::cr, "CR"},
-                                  {LinearSolver::cg, "CG"}});
-
-  inline bool is_matrix_free(const LinearSolver solver)
-  {
-    return solver == LinearSolver::cr || solver == LinearSolver::cg;
-  }
-
-  /// Which unknowns are eliminated before the direct solver.
-  enum class Condensation
-  {
-    automatic, ///< cells
-    none,
-    cells,   ///< bubbles and, if kappa is finite, discontinuous pressures, cell by cell
-    pressure ///< a continuous pressure with a lumped compliance matrix (equation 37)
-  };
-  inline constexpr auto condensation_names
-      = name_table<Condensation>({{Condensation::automatic, "automatic"},
-                                  {Condensation::none, "none"},
-                                  {Condensation::cells, "cells"},
-                                  {Condensation::pressure, "pressure"}});
-
   struct LinearOptions
   {
     LinearSolver solver       = LinearSolver::automatic;
     Condensation condensation = Condensation::automatic;
+    double       memory_limit = 0.; ///< of factors, all ranks, MB; 0: most of what is available
   };
 
   struct LinearStatistics
@@ -66,19 +27,22 @@ namespace isochor
     unsigned int krylov_iterations = 0;
     double       worst_residual    = 0; ///< largest true relative residual of a solve
     /// Negative pivots minus pressure unknowns at the last factorisation: 0 certifies a stable
-    /// equilibrium; unknown for LU.
+    /// equilibrium; unknown for LU, block.
     std::optional<long long> pivot_excess;
-    std::size_t              null_pivots              = 0; ///< at the last factorisation
-    double                   flops                    = 0; ///< of one factorisation
-    double                   megabytes                = 0; ///< of the factors
+    std::size_t              null_pivots         = 0; ///< at the last factorisation
+    double                   flops               = 0; ///< of one factorisation
+    double                   megabytes           = 0; ///< of the factors
+    double                   predicted_megabytes = 0; ///< that factors were to need; 0: not known
     bool                     gave_up_single_precision = false;
+    std::string note; ///< why the automatic choice is not the usual one; empty if it is
   };
 
   template <int dim>
   class TangentSolver
   {
   public:
-    /// Analyses the pattern. Collective. References must outlive this.
+    /// Analyses the pattern. Collective. References must outlive this. Throws UserError if the factors
+    /// of a solver asked for by name would not fit into memory.
     TangentSolver(const Equilibrium<dim> &equilibrium,
                   const LinearOptions    &options,
                   Stopwatch              &stopwatch);
@@ -97,7 +61,7 @@ namespace isochor
 
     /// Factor the tangent at @p state for its negative pivots: statistics().pivot_excess, in
     /// double precision wherever single precision shows anything but a stable equilibrium.
-    /// Unknown for LU. Collective.
+    /// Unknown for LU and block. Collective.
     void certify(const Vector &state, double load);
 
     /// From now on every tangent goes through @p change before supports are applied; see
@@ -117,32 +81,36 @@ namespace isochor
     }
 
   private:
-    void use(DirectKind kind);
-    void assemble(const Vector                                       &state,
-                  double                                              load,
-                  const PredictedStress                              *stress,
-                  const typename PrescribedDisplacements<dim>::Sides &sides);
+    /// Why @p solver cannot be used, empty if it can.
+    std::string use(LinearSolver solver);
+    void        choose();
+    void        assemble(const Vector                                       &state,
+                         double                                              load,
+                         const PredictedStress                              *stress,
+                         const typename PrescribedDisplacements<dim>::Sides &sides);
     /// For a @p state that Newton's last step led to; null for any other.
     std::unique_ptr<PredictedStress> predicted_stress(const Vector &state) const;
-    Factorisation                    factor();
-    Factorisation                    factor_or_use_double();
+    Factorisation                    factor(const Vector &state);
+    Factorisation                    factor_or_use_double(const Vector &state);
     NewtonProblem::Correction        matrix_free_correction(const Vector &state,
                                                             double        load,
                                                             const Vector &residual,
                                                             double        tolerance,
                                                             Vector       &step,
                                                             Vector       *rate);
+    unsigned int                     max_iterations_when_kept(double tolerance) const;
     LinearSolve                      solve(const Vector &rhs, double tolerance, Vector &step);
     std::string                      complaint(const LinearSolve &outcome) const;
 
-    const Equilibrium<dim>       &equilibrium;
-    LinearOptions                 options;
-    Stopwatch                    &stopwatch;
-    SparseMatrix                  matrix; ///< scaled
-    SymmetricScaling              scaling;
-    NodalRotations<dim>           rotations; ///< since the factors
-    std::unique_ptr<DirectSolver> factors;
-    DirectKind                    kind = DirectKind::mumps;
+    const Equilibrium<dim>             &equilibrium;
+    LinearOptions                       options;
+    Stopwatch                          &stopwatch;
+    SparseMatrix                        matrix;       ///< scaled
+    double                              memory_limit; ///< of factors, MB
+    SymmetricScaling                    scaling;
+    NodalRotations<dim>                 rotations; ///< since the factors
+    std::unique_ptr<LinearBackend<dim>> backend;
+    double fresh_effort = 0; ///< iterations per digit when the preconditioner was new
     /// FGMRES converges fast enough with the factors of an earlier tangent.
     bool   are_kept = false;
     Vector linearised_at, last_step; ///< of the last correction; empty before
