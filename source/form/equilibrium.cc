@@ -92,10 +92,10 @@ namespace isochor
     // A load's formula may fail where only one rank evaluates it.
     collectively(discretisation_.communicator(), [&]() {
       for (const auto &term : loads)
-        value += term->add(state, load, {&external, nullptr, nullptr, nullptr}).value;
+        value += term->add(state, load, {&external}).value;
     });
     residual                   = 0.;
-    const Evaluation internals = internal->add(state, load, {&residual, nullptr, nullptr, nullptr});
+    const Evaluation internals = internal->add(state, load, {&residual});
     value += internals.value;
 
     double acting = 0, reacting = 0, largest = 0;
@@ -143,12 +143,13 @@ namespace isochor
   void Equilibrium<dim>::tangent(const Vector          &state,
                                  const double           load,
                                  SparseMatrix          &matrix,
-                                 const PredictedStress *stress) const
+                                 const PredictedStress *stress,
+                                 const CurvatureFilter  filter) const
   {
     std::fill(matrix.values().begin(), matrix.values().end(), 0.);
-    internal->add(state, load, {nullptr, &matrix, &offsets, stress});
+    internal->add(state, load, {nullptr, &matrix, &offsets, stress, filter});
     for (const auto &term : loads)
-      term->add(state, load, {nullptr, &matrix, &offsets, nullptr});
+      term->add(state, load, {nullptr, &matrix, &offsets});
   }
 
   template <int dim>

@@ -40,6 +40,7 @@ namespace isochor
                     in,
                     target.tangent != nullptr,
                     target.stress != nullptr ? &predicted : nullptr,
+                    target.filter,
                     out);
 
             lower(evaluation.min_jacobian, isochor::min(out.J));
@@ -112,6 +113,7 @@ namespace isochor
                           const CellBatch           &in,
                           const bool                 with_tangent,
                           const Stress              *predicted,
+                          const CurvatureFilter      filter,
                           BatchSystem               &out)
       {
         Deformation deformation;
@@ -142,6 +144,8 @@ namespace isochor
             deformation, volumetric, q, mixed ? 0. : data.moduli.kappa, with_tangent, response);
         if (predicted != nullptr)
           replace_volumetric_stress(deformation, volumetric, q, *predicted, response);
+        if (with_tangent)
+          filter_curvature(filter, dim, response);
 
         out.J     = deformation.J;
         out.value = in.volume * (response.energy + (mixed ? 1. : 0.5) * q * volumetric.phi);

@@ -117,10 +117,11 @@ namespace isochor
   void TangentSolver<dim>::assemble(const Vector                                       &state,
                                     const double                                        load,
                                     const PredictedStress                              *stress,
+                                    const CurvatureFilter                               filter,
                                     const typename PrescribedDisplacements<dim>::Sides &sides)
   {
     const auto scope = stopwatch.measure(Phase::assembly);
-    equilibrium.tangent(state, load, matrix, stress);
+    equilibrium.tangent(state, load, matrix, stress, filter);
     equilibrium.prescribed().apply(matrix, sides);
     if (!are_kept)
       scaling.compute(matrix, equilibrium.discretisation().n_owned_displacements, dim);
@@ -187,7 +188,7 @@ namespace isochor
         rate_rhs.reinit(residual);
         rate_gap.reinit(residual);
       }
-    const auto linearise = [&](const PredictedStress *stress) {
+    const auto linearise = [&](const PredictedStress *stress, const CurvatureFilter filter) {
       rhs.equ(-1., residual);
       equilibrium.prescribed().gap(state, load, gap);
       typename PrescribedDisplacements<dim>::Sides sides{{&rhs, &gap}};
@@ -196,11 +197,11 @@ namespace isochor
           load_rates(equilibrium, state, load, rate_rhs, rate_gap);
           sides.emplace_back(&rate_rhs, &rate_gap);
         }
-      assemble(state, load, stress, sides);
+      assemble(state, load, stress, filter, sides);
     };
     state.update_ghost_values();
     const auto stress = predicted_stress(state);
-    linearise(stress.get());
+    linearise(stress.get(), CurvatureFilter::none);
 
     LinearSolve outcome;
     const auto  solve_all = [&]() {
@@ -215,7 +216,8 @@ namespace isochor
         const auto scope = stopwatch.measure(Phase::solve);
         rotations.update(state);
       }
-    bool is_solved = are_kept && solve_all();
+    bool is_solved = are_kept && solve_all(), is_filtered = false;
+    is_fresh = !is_solved;
     if (!is_solved)
       {
         are_kept = false;
@@ -224,8 +226,18 @@ namespace isochor
         if (stress && counts.pivot_excess.value_or(0) > 0)
           {
             // Far from a solution the prediction may be one of compression.
-            linearise(nullptr);
+            linearise(nullptr, CurvatureFilter::none);
             factorisation = factor_or_use_double();
+          }
+        if (filter != CurvatureFilter::none && filtered_left > 0
+            && counts.pivot_excess.value_or(0) > 0)
+          {
+            is_filtered = true;
+            --filtered_left;
+            const auto excess = counts.pivot_excess;
+            linearise(nullptr, filter);
+            factorisation       = factor_or_use_double();
+            counts.pivot_excess = excess;
           }
         if (!factorisation.succeeded)
           return {false, factorisation.failure};
@@ -239,7 +251,7 @@ namespace isochor
             is_solved = solve_all();
           }
       }
-    are_kept = is_solved && kind == DirectKind::single_mumps
+    are_kept = is_solved && !is_filtered && kind == DirectKind::single_mumps
                && outcome.krylov_iterations <= max_krylov_iterations_with_kept_factors;
     if (!is_solved)
       return {false, complaint(outcome)};
@@ -281,22 +293,44 @@ namespace isochor
   }
 
   template <int dim>
+  bool TangentSolver<dim>::is_near_last_linearisation(const Vector &state) const
+  {
+    // Displacements and pressures have different units.
+    double     sums[4] = {};
+    const auto n_u     = equilibrium.discretisation().n_owned_displacements;
+    for (LocalIndex i = 0; i < state.locally_owned_size(); ++i)
+      {
+        double *sum = &sums[i < n_u ? 0 : 2];
+        sum[0] += std::pow(state.local_element(i) - linearised_at.local_element(i), 2);
+        sum[1] += std::pow(state.local_element(i), 2);
+      }
+    dealii::Utilities::MPI::sum(sums, state.get_mpi_communicator(), sums);
+    constexpr double near = 1e-4;
+    return sums[0] <= near * near * sums[1] && sums[2] <= near * near * sums[3];
+  }
+
+  template <int dim>
   void TangentSolver<dim>::certify(const Vector &state, const double load)
   {
     if (kind == DirectKind::umfpack)
       return;
-    are_kept = false;
     state.update_ghost_values();
-    assemble(state, load, nullptr, {});
-    factor_or_use_double();
+    if (is_fresh && counts.pivot_excess == 0 && is_near_last_linearisation(state))
+      return;
+    are_kept = false;
+    assemble(state, load, nullptr, CurvatureFilter::none, {});
+    rotations.start(state);
+    are_kept = factor_or_use_double().succeeded && kind == DirectKind::single_mumps;
     if (kind == DirectKind::single_mumps && counts.pivot_excess != 0)
       {
         auto single = std::move(factors);
         use(DirectKind::mumps);
         factor();
-        factors = std::move(single);
-        kind    = DirectKind::single_mumps;
+        factors  = std::move(single);
+        kind     = DirectKind::single_mumps;
+        are_kept = true;
       }
+    is_fresh = false;
   }
 
   template class TangentSolver<2>;

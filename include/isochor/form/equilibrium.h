@@ -48,7 +48,8 @@ namespace isochor
     void tangent(const Vector          &state,
                  double                 load,
                  SparseMatrix          &matrix,
-                 const PredictedStress *stress = nullptr) const;
+                 const PredictedStress *stress = nullptr,
+                 CurvatureFilter        filter = CurvatureFilter::none) const;
 
     /// For tangent() at @p state + @p change; see predicted_stress.h. Ghosts are updated. Collective.
     std::unique_ptr<PredictedStress> predict_stress(const Vector &state,

@@ -4,6 +4,7 @@
 // the tangent d2L/d(u, p)2. Terms know no solver; they add to what they are given.
 
 #include <isochor/algebra/sparse_matrix.h>
+#include <isochor/form/curvature_filter.h>
 
 #include <limits>
 
@@ -26,6 +27,8 @@ namespace isochor
     const CellOffsets *offsets  = nullptr; ///< of the tangent
     /// The geometric stiffness of this stress in the place of the state's.
     const PredictedStress *stress = nullptr;
+    /// Of the tangent's displacement block, cell by cell.
+    CurvatureFilter filter = CurvatureFilter::none;
   };
 
   class Term

@@ -86,9 +86,18 @@ namespace isochor
                                          Vector       *rate = nullptr);
 
     /// Factor the tangent at @p state for its negative pivots: statistics().pivot_excess, in
-    /// double precision wherever single precision shows anything but a stable equilibrium.
+    /// double precision wherever single precision shows anything but a stable equilibrium. Not
+    /// if it was last factored for a stable state that this one can hardly be told from.
     /// Unknown for LU. Collective.
     void certify(const Vector &state, double load);
+
+    /// Where a factorisation shows negative pivots too many, take the filtered tangent instead, in
+    /// the next @p times corrections.
+    void filter_unstable(const CurvatureFilter new_filter, const unsigned int times)
+    {
+      filter        = new_filter;
+      filtered_left = times;
+    }
 
     const LinearStatistics &statistics() const
     {
@@ -100,6 +109,7 @@ namespace isochor
     void assemble(const Vector                                       &state,
                   double                                              load,
                   const PredictedStress                              *stress,
+                  CurvatureFilter                                     filter,
                   const typename PrescribedDisplacements<dim>::Sides &sides);
     /// For a @p state that Newton's last step led to; null for any other.
     std::unique_ptr<PredictedStress> predicted_stress(const Vector &state) const;
@@ -107,6 +117,7 @@ namespace isochor
     Factorisation                    factor_or_use_double();
     LinearSolve                      solve(const Vector &rhs, double tolerance, Vector &step);
     std::string                      complaint(const LinearSolve &outcome) const;
+    bool                             is_near_last_linearisation(const Vector &state) const;
 
     const Equilibrium<dim>       &equilibrium;
     LinearOptions                 options;
@@ -117,7 +128,10 @@ namespace isochor
     std::unique_ptr<DirectSolver> factors;
     DirectKind                    kind = DirectKind::mumps;
     /// FGMRES converges fast enough with the factors of an earlier tangent.
-    bool             are_kept = false;
+    bool             are_kept      = false;
+    bool             is_fresh      = false; ///< the last correction has factored its own tangent
+    CurvatureFilter  filter        = CurvatureFilter::none;
+    unsigned int     filtered_left = 0;
     Vector           linearised_at, last_step; ///< of the last correction; empty before
     LinearStatistics counts;
   };
