@@ -138,7 +138,7 @@ class Study:
 
 
 def failed(row):
-    return not row["status"].startswith("converged")
+    return not row["status"].startswith(("stable", "unstable", "converged"))
 
 
 def size_of(text):

@@ -65,7 +65,7 @@ def scene(case, ranks, folder):
 def measure(options, folder):
     def one(case, ranks):
         figures = numbers(run(options.isochor, SCENE, scene(case, ranks, folder), ranks))
-        if figures["status"] != "converged":
+        if figures["status"] != "stable":
             raise Failed(f"{case} on {ranks} ranks: {figures['reason']}")
         return figures
     return one

@@ -76,7 +76,7 @@ namespace isochor
     if (discretisation.n_pressures > 0)
       {
         diagonal_ = PressureMass<dim>(discretisation).diagonal();
-        diagonal_ *= 1. / moduli_.mu + moduli.compliance();
+        diagonal_ *= 1. / moduli_.mu + moduli_.compliance();
       }
     double squared = 0;
     for (LocalIndex i = 0; i < discretisation.n_owned_displacements; ++i)
@@ -104,10 +104,10 @@ namespace isochor
     // A load's formula may fail where only one rank evaluates it.
     collectively(discretisation_.communicator(), [&]() {
       for (const auto &term : loads)
-        value += term->add(state, load, {&external, nullptr, nullptr, nullptr}).value;
+        value += term->add(state, load, {&external}).value;
     });
     residual                   = 0.;
-    const Evaluation internals = internal->add(state, load, {&residual, nullptr, nullptr, nullptr});
+    const Evaluation internals = internal->add(state, load, {&residual});
     value += internals.value;
 
     double acting = 0, reacting = 0, largest = 0;
@@ -155,12 +155,18 @@ namespace isochor
   void Equilibrium<dim>::tangent(const Vector          &state,
                                  const double           load,
                                  SparseMatrix          &matrix,
-                                 const PredictedStress *stress) const
+                                 const PredictedStress *stress,
+                                 const CurvatureFilter  filter) const
   {
     std::fill(matrix.values().begin(), matrix.values().end(), 0.);
-    internal->add(state, load, {nullptr, &matrix, &offsets, stress});
+    Target target;
+    target.tangent = &matrix;
+    target.offsets = &offsets;
     for (const auto &term : loads)
-      term->add(state, load, {nullptr, &matrix, &offsets, nullptr});
+      term->add(state, load, target);
+    target.stress = stress;
+    target.filter = filter;
+    internal->add(state, load, target);
   }
 
   template <int dim>

@@ -43,6 +43,7 @@ namespace isochor
                     target.tangent != nullptr,
                     target.product != nullptr ? &direction : nullptr,
                     target.stress != nullptr ? &predicted : nullptr,
+                    target.filter,
                     out);
 
             lower(evaluation.min_jacobian, isochor::min(out.J));
@@ -131,6 +132,7 @@ namespace isochor
                           const bool                 with_matrix,
                           const CellBatch           *direction,
                           const Stress              *predicted,
+                          const CurvatureFilter      filter,
                           BatchSystem               &out)
       {
         const bool  with_tangent = with_matrix || direction != nullptr;
@@ -162,6 +164,8 @@ namespace isochor
             deformation, volumetric, q, mixed ? 0. : data.moduli.kappa, with_tangent, response);
         if (predicted != nullptr)
           replace_volumetric_stress(deformation, volumetric, q, *predicted, response);
+        if (with_tangent)
+          filter_curvature(filter, dim, response);
 
         out.J     = deformation.J;
         out.value = in.volume * (response.energy + (mixed ? 1. : 0.5) * q * volumetric.phi);

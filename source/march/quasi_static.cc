@@ -1,185 +1,167 @@
+#include <isochor/march/arc_length.h>
 #include <isochor/march/quasi_static.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <cmath>
-#include <sstream>
 
 namespace isochor
 {
-  void SteppingOptions::declare(dealii::ParameterHandler &prm)
-  {
-    const SteppingOptions defaults;
-    prm.declare_entry("Load steps",
-                      std::to_string(defaults.load_steps),
-                      dealii::Patterns::Integer(1, 1000000),
-                      "Number of equal steps in which the load factor goes from 0 to 1. A step "
-                      "that fails is halved, and steps grow again up to this size.");
-    prm.declare_entry("Minimum load step",
-                      "1e-3",
-                      dealii::Patterns::Double(1e-12, 1.),
-                      "Smallest step of the load factor; below it the run ends as not "
-                      "converged. No unit.");
-  }
-
-  void SteppingOptions::parse(dealii::ParameterHandler &prm)
-  {
-    load_steps   = prm.get_integer("Load steps");
-    minimum_step = prm.get_double("Minimum load step");
-  }
-
   namespace
   {
+    /// The straight line through the last two converged states. (The tangent of the path would not
+    /// do better: it is Newton's first iteration from the last state.)
     template <int dim>
-    NewtonProblem make_problem(const Equilibrium<dim> &equilibrium,
-                               TangentSolver<dim>     &tangent_solver,
-                               const double            load,
-                               const double            tolerance,
-                               const MarchCallbacks   &callbacks,
-                               Stopwatch              &stopwatch,
-                               ResidualSize           &last_size)
+    class Extrapolation
     {
-      NewtonProblem problem;
-      problem.residual
-          = [&, load, tolerance](const Vector &x, Vector &residual) -> NewtonProblem::Size {
-        const auto scope = stopwatch.measure(Phase::assembly);
-        last_size        = equilibrium.residual(x, load, residual);
+    public:
+      explicit Extrapolation(const LoadControl<dim> &control)
+        : control(control)
+      {
+      }
 
-        NewtonProblem::Size size;
-        size.merit      = std::hypot(last_size.force, last_size.constraint);
-        size.target     = std::max(tolerance, last_size.rounding);
-        size.admissible = equilibrium.is_linear() || last_size.min_jacobian > 0.;
+      /// Before @p state, an equilibrium at load factor @p load, is replaced.
+      void remember(const Vector &state, const double load)
+      {
+        before      = state;
+        load_before = load;
+      }
 
-        Vector       gap(x.get_partitioner());
-        const double largest = equilibrium.prescribed().gap(x, load, gap);
-        // Adding a difference does not give back the last bit.
-        size.gap = largest <= 1e-13 * (x.linfty_norm() + largest) ? 0. : largest;
-        return size;
-      };
-      problem.correction =
-          [&, load](const Vector &x, const Vector &residual, const double tolerance, Vector &step) {
-            return tangent_solver.correction(x, load, residual, tolerance, step);
-          };
-      problem.accepted = [&](unsigned int, const NewtonProblem::Size &, double) {
-        return callbacks.interrupted();
-      };
-      return problem;
-    }
+      /// Move @p trial, the equilibrium at @p from, to @p to, unless that inverts a cell or is worse
+      /// to start from than to stay.
+      void apply(Vector &trial, const double from, const double to)
+      {
+        if (before.size() == 0)
+          return;
+        Vector       residual(trial), guess(trial);
+        const double ratio = (to - from) / (from - load_before);
+        guess.sadd(1. + ratio, -ratio, before);
+        // Residuals of different boundary positions do not compare, but extrapolated ones are closer.
+        Vector gap(trial);
+        control.equilibrium.prescribed().gap(guess, to, gap);
+        guess += gap;
 
-    std::string describe_failure(const double            load,
-                                 const NewtonReport     &newton,
-                                 const ResidualSize     &size,
-                                 const LinearStatistics &statistics,
-                                 const double            step,
-                                 const double            minimum_step)
+        ResidualSize              all;
+        const NewtonProblem::Size here  = control.residual(trial, to, residual, all);
+        const NewtonProblem::Size there = control.residual(guess, to, residual, all);
+        // Written so that NaN stays.
+        if (there.admissible && (there.merit < here.merit || (here.gap > 0. && there.merit < 1.)))
+          trial.swap(guess);
+      }
+
+      Vector before;
+      double load_before = 0;
+
+    private:
+      const LoadControl<dim> &control;
+    };
+
+    template <int dim>
+    MarchReport march_in_steps(const LoadControl<dim> &control,
+                               const SteppingOptions  &stepping,
+                               Vector                 &state,
+                               const MarchState       &begin)
     {
-      std::ostringstream why;
-      why << "step below minimum: from load factor " << load << " a step of " << step
-          << " failed and the next would be below " << minimum_step << "; " << newton.reason;
-      if (newton.outcome == NewtonOutcome::inverted)
-        why << " (inverted cell, min J " << size.min_jacobian << ")";
-      if (statistics.null_pivots > 0)
-        why << "; " << statistics.null_pivots << " null pivots: the tangent is singular";
-      if (statistics.pivot_excess.value_or(0) > 0)
-        why << "; " << *statistics.pivot_excess
-            << " negative pivots too many: the equilibrium is unstable there";
-      if (statistics.pivot_excess.value_or(0) < 0)
-        why << "; " << -*statistics.pivot_excess
-            << " negative pivots too few: some pressures are not determined";
-      return why.str();
+      const MarchCallbacks   &callbacks  = control.callbacks;
+      const LinearStatistics &statistics = control.tangent_solver.statistics();
+      MarchReport             report     = begin.report;
+      StepControl             step_control(stepping);
+      Extrapolation<dim>      extrapolation(control);
+      // From an unstable equilibrium on, the next is likely to be so too, and the filter only leads
+      // away from it; where it has failed, it may be for that reason.
+      bool is_unstable = false, filters = true;
+      if (!begin.vectors.empty())
+        {
+          state = begin.vectors[0];
+          state.update_ghost_values();
+          extrapolation.remember(begin.vectors[1], begin.numbers[1]);
+          step_control.resume(begin.numbers[0]);
+          is_unstable = begin.numbers[2] != 0.;
+          filters     = !is_unstable;
+        }
+      Vector trial(state);
+      while (report.load < 1.)
+        {
+          // No sliver of a step at the end.
+          const double       step = step_control.step();
+          const double       load = report.load + step > 1. - 1e-9 ? 1. : report.load + step;
+          const Stopwatch    clock;
+          const unsigned int factorisations = statistics.factorisations;
+
+          ResidualSize size;
+          trial = state;
+          if (stepping.extrapolates)
+            extrapolation.apply(trial, report.load, load);
+          const NewtonReport newton_report
+              = control.solve(load, trial, size, filters ? stepping.filter : CurvatureFilter::none);
+          report.newton_iterations += newton_report.iterations;
+
+          if (newton_report.outcome == NewtonOutcome::converged)
+            {
+              extrapolation.remember(state, report.load);
+              state.swap(trial);
+              state.update_ghost_values();
+              report.load = load;
+              report.size = size;
+              ++report.load_steps;
+              step_control.succeeded(newton_report.iterations);
+              LoadStep done{report.load_steps, load, newton_report, size, clock.total(), {}};
+              if (statistics.factorisations > factorisations)
+                done.pivot_excess = statistics.pivot_excess;
+              is_unstable = done.pivot_excess.value_or(0) > 0;
+              filters     = !is_unstable;
+              callbacks.converged(done, state);
+              if (callbacks.resumable && load < 1.)
+                callbacks.resumable(
+                    {report,
+                     {state, extrapolation.before},
+                     {step_control.step(), extrapolation.load_before, is_unstable ? 1. : 0.}});
+            }
+          else if (newton_report.outcome == NewtonOutcome::interrupted)
+            {
+              report.status = RunStatus::interrupted;
+              report.reason = "interrupted on the way to load factor " + std::to_string(load);
+              return report;
+            }
+          else
+            {
+              ++report.failed_steps;
+              filters = !is_unstable && !filters;
+              if (!step_control.failed(load - report.load))
+                {
+                  report.reason
+                      = describe_failure(newton_report, size, statistics)
+                        + describe_minimum(report.load, load - report.load, stepping.minimum_step);
+                  control.finish(state, report);
+                  return report;
+                }
+              callbacks.failed(load, newton_report, step_control.step());
+            }
+          if (report.load < 1. && callbacks.interrupted())
+            {
+              report.status = RunStatus::interrupted;
+              report.reason = "interrupted after load factor " + std::to_string(report.load);
+              return report;
+            }
+        }
+      control.finish(state, report);
+      return report;
     }
   } // namespace
 
   template <int dim>
   MarchReport march_quasi_static(const Equilibrium<dim> &equilibrium,
                                  TangentSolver<dim>     &tangent_solver,
-                                 const NewtonOptions    &asked_newton_options,
+                                 const NewtonOptions    &newton_options,
                                  const SteppingOptions  &stepping,
                                  const MarchCallbacks   &callbacks,
                                  Stopwatch              &stopwatch,
                                  Vector                 &state,
                                  const MarchState       &begin)
   {
-    // A linear problem is to take one iteration.
-    NewtonOptions newton_options = asked_newton_options;
-    if (equilibrium.is_linear())
-      newton_options.largest_linear_tolerance = 0.;
-
-    MarchReport  report       = begin.report;
-    const double largest_step = 1. / stepping.load_steps;
-    double       step         = largest_step;
-    if (!begin.vectors.empty())
-      {
-        state = begin.vectors.front();
-        state.update_ghost_values();
-        step = std::min(begin.numbers.front(), largest_step);
-      }
-    Vector trial(state);
-
-    while (report.load < 1.)
-      {
-        // No sliver of a step at the end.
-        const double    load = report.load + step > 1. - 1e-9 ? 1. : report.load + step;
-        const Stopwatch clock;
-
-        ResidualSize size;
-        trial                      = state;
-        const auto   problem       = make_problem(equilibrium,
-                                          tangent_solver,
-                                          load,
-                                          newton_options.tolerance,
-                                          callbacks,
-                                          stopwatch,
-                                          size);
-        NewtonReport newton_report = callbacks.solve ? callbacks.solve(load, size, trial)
-                                                     : newton(problem, newton_options, trial);
-        report.newton_iterations += newton_report.iterations;
-
-        if (newton_report.outcome == NewtonOutcome::converged)
-          {
-            state.swap(trial);
-            state.update_ghost_values();
-            report.load = load;
-            report.size = size;
-            ++report.load_steps;
-            step = std::min(2. * step, largest_step);
-            callbacks.converged({report.load_steps, load, newton_report, size, clock.total()},
-                                state);
-            if (callbacks.resumable && load < 1.)
-              callbacks.resumable({report, {state}, {step}});
-          }
-        else if (newton_report.outcome == NewtonOutcome::interrupted)
-          {
-            report.status = RunStatus::interrupted;
-            report.reason = "interrupted on the way to load factor " + std::to_string(load);
-            return report;
-          }
-        else
-          {
-            ++report.failed_steps;
-            const double next = 0.5 * (load - report.load);
-            if (next < stepping.minimum_step)
-              {
-                report.status = RunStatus::not_converged;
-                report.reason = describe_failure(report.load,
-                                                 newton_report,
-                                                 size,
-                                                 tangent_solver.statistics(),
-                                                 load - report.load,
-                                                 stepping.minimum_step);
-                return report;
-              }
-            step = next;
-            callbacks.failed(load, newton_report, next);
-          }
-        if (report.load < 1. && callbacks.interrupted())
-          {
-            report.status = RunStatus::interrupted;
-            report.reason = "interrupted after load factor " + std::to_string(report.load);
-            return report;
-          }
-      }
-    return report;
+    const LoadControl<dim> control(
+        equilibrium, tangent_solver, newton_options, callbacks, stopwatch);
+    if (stepping.kind == Stepping::arc_length)
+      return march_along_path(control, stepping, state, begin);
+    return march_in_steps(control, stepping, state, begin);
   }
 
   template MarchReport march_quasi_static(const Equilibrium<2> &,

@@ -212,6 +212,9 @@ namespace isochor
     check_element(method.element, material);
     check_condensation(method, material);
     check_solver(method);
+    if (method.solver == Solver::dual_ascent && method.stepping.kind == Stepping::arc_length)
+      throw UserError("Method/Stepping: arc length follows a path with Newton's method only; choose "
+                      "fixed or adaptive, or Method/Solver = Newton");
     if (method.linear.solver == LinearSolver::umfpack && n_ranks > 1)
       throw UserError("Method/Linear solver: UMFPACK runs on one rank, not on "
                       + std::to_string(n_ranks) + "; choose direct or automatic");

@@ -97,7 +97,7 @@ namespace isochor
                                  coarse_state);
     report.newton_iterations += march.newton_iterations;
     report.linear = joined(report.linear, tangent_solver.statistics());
-    if (march.status != RunStatus::converged)
+    if (!march.converged())
       {
         report.remarks.push_back("nested iteration: no equilibrium on the mesh of "
                                  + std::to_string(discretisation.n_cells) + " cells ("
@@ -124,6 +124,7 @@ namespace isochor
                                Vector                   &state)
   {
     SteppingOptions one_step = method.stepping;
+    one_step.kind            = Stepping::fixed;
     one_step.load_steps      = 1;
     one_step.minimum_step    = 1.;
     const MarchReport report = march_quasi_static(

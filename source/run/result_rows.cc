@@ -141,7 +141,7 @@ namespace isochor
     add("min angle [deg]", csv_number(result.quality.min_angle));
     add("max aspect", csv_number(result.quality.max_aspect));
     add("negative pivots excess",
-        result.linear.pivot_excess ? std::to_string(*result.linear.pivot_excess) : "");
+        result.march.pivot_excess ? std::to_string(*result.march.pivot_excess) : "");
     add("null pivots", std::to_string(result.linear.null_pivots));
     add("status", result.status);
     add("reason", result.reason);
@@ -254,8 +254,8 @@ namespace isochor
                 : "")
         << ", factorisations " << result.linear.factorisations << ", Krylov iterations "
         << result.linear.krylov_iterations << '\n';
-    if (result.linear.pivot_excess)
-      out << "negative pivots    " << *result.linear.pivot_excess
+    if (result.march.pivot_excess)
+      out << "negative pivots    " << *result.march.pivot_excess
           << " more than pressure unknowns\n";
     if (result.oscillation)
       out << "pressure CB        " << number(*result.oscillation, "%.3f") << '\n';

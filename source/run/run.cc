@@ -118,12 +118,14 @@ namespace isochor
                const std::optional<DualReport> &dual,
                const std::vector<double>       &values)
       {
-        ResultRow row = {{"step", std::to_string(step.number)},
-                         {"load factor", csv_number(step.load)},
-                         {"newton iterations", std::to_string(step.newton.iterations)},
-                         {"residual", csv_number(step.newton.merit)},
-                         {"min J", csv_number(step.size.min_jacobian)},
-                         {"seconds", csv_number(step.seconds)}};
+        ResultRow row = {
+            {"step", std::to_string(step.number)},
+            {"load factor", csv_number(step.load)},
+            {"newton iterations", std::to_string(step.newton.iterations)},
+            {"residual", csv_number(step.newton.merit)},
+            {"min J", csv_number(step.size.min_jacobian)},
+            {"negative pivots excess", step.pivot_excess ? std::to_string(*step.pivot_excess) : ""},
+            {"seconds", csv_number(step.seconds)}};
         for (const auto &[name, count] : dual_columns(dual))
           row.emplace_back(name, count);
         for (std::size_t k = 0; k < columns.size(); ++k)
@@ -298,7 +300,7 @@ namespace isochor
     }
     if (settings.inf_sup)
       result.inf_sup_at_end = stability(state);
-    result.status  = run_status_names.name(result.march.status);
+    result.status  = result.march.status_text();
     result.reason  = result.march.reason;
     result.linear  = joined(joined(nested.linear, earlier.linear), tangent_solver.statistics());
     result.seconds = seconds_of(stopwatch);

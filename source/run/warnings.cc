@@ -49,7 +49,7 @@ namespace isochor
                   " feels them on this mesh; do not trust the pressures, choose ",
                   stable);
 
-      const auto excess = result.linear.pivot_excess.value_or(0);
+      const auto excess = result.march.pivot_excess.value_or(0);
       if (excess > 0)
         out.add("the equilibrium is not stable: ",
                 excess,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <utility>
 
 namespace isochor
 {
@@ -142,10 +143,11 @@ namespace isochor
   void TangentSolver<dim>::assemble(const Vector                                       &state,
                                     const double                                        load,
                                     const PredictedStress                              *stress,
+                                    const CurvatureFilter                               filter,
                                     const typename PrescribedDisplacements<dim>::Sides &sides)
   {
     const auto scope = stopwatch.measure(Phase::assembly);
-    equilibrium.tangent(state, load, matrix, stress);
+    equilibrium.tangent(state, load, matrix, stress, filter);
     if (change_tangent)
       change_tangent(matrix);
     equilibrium.prescribed().apply(matrix, sides);
@@ -223,7 +225,7 @@ namespace isochor
         rate_rhs.reinit(residual);
         rate_gap.reinit(residual);
       }
-    const auto linearise = [&](const PredictedStress *stress) {
+    const auto linearise = [&](const PredictedStress *stress, const CurvatureFilter filter) {
       rhs.equ(-1., residual);
       equilibrium.prescribed().gap(state, load, gap);
       typename PrescribedDisplacements<dim>::Sides sides{{&rhs, &gap}};
@@ -232,11 +234,11 @@ namespace isochor
           load_rates(equilibrium, state, load, rate_rhs, rate_gap);
           sides.emplace_back(&rate_rhs, &rate_gap);
         }
-      assemble(state, load, stress, sides);
+      assemble(state, load, stress, filter, sides);
     };
     state.update_ghost_values();
     const auto stress = predicted_stress(state);
-    linearise(stress.get());
+    linearise(stress.get(), CurvatureFilter::none);
 
     LinearSolve outcome;
     const auto  solve_all = [&]() {
@@ -251,7 +253,8 @@ namespace isochor
         const auto scope = stopwatch.measure(Phase::solve);
         rotations.update(state);
       }
-    bool is_solved = are_kept && solve_all();
+    bool is_solved = are_kept && solve_all(), is_filtered = false;
+    is_fresh = !is_solved;
     if (!is_solved)
       {
         are_kept = false;
@@ -260,8 +263,18 @@ namespace isochor
         if (stress && counts.pivot_excess.value_or(0) > 0)
           {
             // Far from a solution the prediction may be one of compression.
-            linearise(nullptr);
+            linearise(nullptr, CurvatureFilter::none);
             factorisation = factor_or_use_double(state);
+          }
+        if (filter != CurvatureFilter::none && filtered_left > 0
+            && counts.pivot_excess.value_or(0) > 0)
+          {
+            is_filtered = true;
+            --filtered_left;
+            const auto excess = counts.pivot_excess;
+            linearise(nullptr, filter);
+            factorisation       = factor_or_use_double(state);
+            counts.pivot_excess = excess;
           }
         if (!factorisation.succeeded)
           return {false, factorisation.failure};
@@ -288,7 +301,7 @@ namespace isochor
       }
     if (!are_kept)
       fresh_effort = effort(outcome);
-    are_kept = is_solved && backend->is_preconditioner()
+    are_kept = is_solved && !is_filtered && backend->is_preconditioner()
                && outcome.krylov_iterations <= max_iterations_when_kept(tolerance);
     if (!is_solved)
       return {false, complaint(outcome)};
@@ -389,22 +402,49 @@ namespace isochor
   }
 
   template <int dim>
+  bool TangentSolver<dim>::is_near_last_linearisation(const Vector &state) const
+  {
+    // Displacements and pressures have different units.
+    double     sums[4] = {};
+    const auto n_u     = equilibrium.discretisation().n_owned_displacements;
+    for (LocalIndex i = 0; i < state.locally_owned_size(); ++i)
+      {
+        double *sum = &sums[i < n_u ? 0 : 2];
+        sum[0] += std::pow(state.local_element(i) - linearised_at.local_element(i), 2);
+        sum[1] += std::pow(state.local_element(i), 2);
+      }
+    dealii::Utilities::MPI::sum(sums, state.get_mpi_communicator(), sums);
+    constexpr double near = 1e-4;
+    return sums[0] <= near * near * sums[1] && sums[2] <= near * near * sums[3];
+  }
+
+  template <int dim>
   void TangentSolver<dim>::certify(const Vector &state, const double load)
   {
     if (matrix_free || backend->solver() == LinearSolver::umfpack
         || backend->solver() == LinearSolver::block)
       return;
-    are_kept = false;
     state.update_ghost_values();
-    assemble(state, load, nullptr, {});
-    factor_or_use_double(state);
+    if (is_fresh && !change_tangent && counts.pivot_excess == 0
+        && is_near_last_linearisation(state))
+      return;
+    are_kept = false;
+    // The tangent of the equilibrium itself counts.
+    const auto change = std::exchange(change_tangent, {});
+    assemble(state, load, nullptr, CurvatureFilter::none, {});
+    change_tangent = change;
+    rotations.start(state);
+    are_kept = factor_or_use_double(state).succeeded && backend->is_preconditioner();
     if (backend->solver() == LinearSolver::kept && counts.pivot_excess != 0)
       {
         auto single = std::move(backend);
         if (use(LinearSolver::direct).empty())
           factor(state);
-        backend = std::move(single);
+        backend  = std::move(single);
+        are_kept = true;
       }
+    are_kept = are_kept && !change_tangent;
+    is_fresh = false;
   }
 
   template class TangentSolver<2>;

@@ -17,7 +17,7 @@ if os.geteuid() == 0:
 
 
 # Status of a run that has reached the full load.
-CONVERGED = "converged"
+CONVERGED = "stable"
 
 
 def read_csv(file):

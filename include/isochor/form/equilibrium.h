@@ -48,7 +48,8 @@ namespace isochor
     void tangent(const Vector          &state,
                  double                 load,
                  SparseMatrix          &matrix,
-                 const PredictedStress *stress = nullptr) const;
+                 const PredictedStress *stress = nullptr,
+                 CurvatureFilter        filter = CurvatureFilter::none) const;
 
     /// product = tangent * direction without a matrix, cell by cell (force differentials); ghosts of
     /// both arguments are updated. Collective.

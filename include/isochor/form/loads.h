@@ -27,8 +27,8 @@ namespace isochor
 
   private:
     mutable Vector force;
-    mutable double filled_for = -1.; ///< load factor of force
-    bool           varies;           ///< other than in proportion to the load factor
+    mutable double filled_for = std::numeric_limits<double>::quiet_NaN(); ///< load factor of force
+    bool           varies; ///< other than in proportion to the load factor
   };
 
   /// int rho g . u over the reference body; @p density in kg/m^3, @p gravity in m/s^2.

@@ -76,6 +76,7 @@ namespace isochor
                                        values,
                                        with_tangent,
                                        target.stress,
+                                       target.filter,
                                        tangents,
                                        *system,
                                        evaluation);
@@ -134,6 +135,7 @@ namespace isochor
                    const double              *values,
                    const bool                 with_tangent,
                    const PredictedStress     *stress,
+                   const CurvatureFilter      filter,
                    std::vector<PointTangent> &tangents,
                    System                    &out,
                    Evaluation                &evaluation) const
@@ -188,6 +190,8 @@ namespace isochor
               deformation, volumetric, q, mixed ? 0. : data.moduli.kappa, with_tangent, response);
           if (stress != nullptr)
             replace_volumetric_stress(deformation, volumetric, q, predicted, response);
+          if (with_tangent)
+            filter_curvature(filter, dim, response);
 
           value += weight * (response.energy + (mixed ? 1. : 0.5) * q * volumetric.phi);
           for (int i = 0; i < 3; ++i)

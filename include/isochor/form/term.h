@@ -4,6 +4,7 @@
 // the tangent d2L/d(u, p)2. Terms know no solver; they add to what they are given.
 
 #include <isochor/algebra/sparse_matrix.h>
+#include <isochor/form/curvature_filter.h>
 
 #include <limits>
 
@@ -30,6 +31,8 @@ namespace isochor
     /// with a residual.
     const Vector *direction = nullptr;
     Vector       *product   = nullptr; ///< ghost entries are scratch
+    /// Of the tangent's displacement block, cell by cell.
+    CurvatureFilter filter = CurvatureFilter::none;
   };
 
   class Term

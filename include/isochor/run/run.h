@@ -16,7 +16,8 @@ namespace isochor
   /// One line of results.csv.
   struct RunResult
   {
-    std::string status; ///< name of a RunStatus, or "refused" (bad input of one run of a study)
+    /// MarchReport::status_text(), or "refused" (bad input of one run of a study)
+    std::string status;
     std::string reason; ///< empty if converged
 
     GlobalIndex                                      cells = 0, unknowns = 0;
@@ -37,7 +38,7 @@ namespace isochor
 
     bool converged() const
     {
-      return status == run_status_names.name(RunStatus::converged);
+      return march.converged();
     }
   };
 

@@ -60,9 +60,18 @@ namespace isochor
                                          Vector       *rate = nullptr);
 
     /// Factor the tangent at @p state for its negative pivots: statistics().pivot_excess, in
-    /// double precision wherever single precision shows anything but a stable equilibrium.
-    /// Unknown for LU and block. Collective.
+    /// double precision wherever single precision shows anything but a stable equilibrium. Not
+    /// if it was last factored for a stable state that this one can hardly be told from.
+    /// Unknown for LU, block and matrix-free solvers. Collective.
     void certify(const Vector &state, double load);
+
+    /// Where a factorisation shows negative pivots too many, take the filtered tangent instead, in
+    /// the next @p times corrections.
+    void filter_unstable(const CurvatureFilter new_filter, const unsigned int times)
+    {
+      filter        = new_filter;
+      filtered_left = times;
+    }
 
     /// From now on every tangent goes through @p change before supports are applied; see
     /// dual_ascent.h.
@@ -87,6 +96,7 @@ namespace isochor
     void        assemble(const Vector                                       &state,
                          double                                              load,
                          const PredictedStress                              *stress,
+                         CurvatureFilter                                     filter,
                          const typename PrescribedDisplacements<dim>::Sides &sides);
     /// For a @p state that Newton's last step led to; null for any other.
     std::unique_ptr<PredictedStress> predicted_stress(const Vector &state) const;
@@ -101,6 +111,7 @@ namespace isochor
     unsigned int                     max_iterations_when_kept(double tolerance) const;
     LinearSolve                      solve(const Vector &rhs, double tolerance, Vector &step);
     std::string                      complaint(const LinearSolve &outcome) const;
+    bool                             is_near_last_linearisation(const Vector &state) const;
 
     const Equilibrium<dim>             &equilibrium;
     LinearOptions                       options;
@@ -112,8 +123,11 @@ namespace isochor
     std::unique_ptr<LinearBackend<dim>> backend;
     double fresh_effort = 0; ///< iterations per digit when the preconditioner was new
     /// FGMRES converges fast enough with the factors of an earlier tangent.
-    bool   are_kept = false;
-    Vector linearised_at, last_step; ///< of the last correction; empty before
+    bool            are_kept      = false;
+    bool            is_fresh      = false; ///< the last correction has factored its own tangent
+    CurvatureFilter filter        = CurvatureFilter::none;
+    unsigned int    filtered_left = 0;
+    Vector          linearised_at, last_step; ///< of the last correction; empty before
     std::function<void(SparseMatrix &)>    change_tangent;
     std::unique_ptr<MatrixFreeSolver<dim>> matrix_free; ///< null: factors
     LinearStatistics                       counts;
