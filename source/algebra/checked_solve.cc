@@ -45,6 +45,36 @@ namespace isochor
           throw dealii::SolverControl::NoConvergence(0, size);
       }
     };
+
+    /// If impatient, gives up as soon as the pace says that the iterations allowed will not do.
+    class PacedControl : public dealii::SolverControl
+    {
+    public:
+      PacedControl(const unsigned int max_iterations,
+                   const double       tolerance,
+                   const bool         is_impatient)
+        : SolverControl(max_iterations, tolerance, false, false)
+        , is_impatient(is_impatient)
+      {
+      }
+
+      State check(const unsigned int step, const double value) override
+      {
+        if (step == 0)
+          first = value;
+        const State state = SolverControl::check(step, value);
+        if (state != iterate || step == 0 || !is_impatient)
+          return state;
+        const double pace     = std::log(value / first) / step;
+        const double expected = step + std::log(tolerance() / value) / pace;
+        // Written so that NaN fails.
+        return pace < 0. && expected <= 1.25 * max_steps() ? iterate : failure;
+      }
+
+    private:
+      const bool is_impatient;
+      double     first = 0;
+    };
   } // namespace
 
   LinearSolve checked_solve(const SparseMatrix &matrix,
@@ -52,7 +82,8 @@ namespace isochor
                             Vector             &x,
                             const Vector       &b,
                             const double        tolerance,
-                            const unsigned int  max_iterations)
+                            const unsigned int  max_iterations,
+                            const bool          is_impatient)
   {
     LinearSolve  outcome;
     const double norm_b = norm(b);
@@ -76,7 +107,7 @@ namespace isochor
     if (outcome.relative_residual > 1.)
       x = 0.;
     // The residual of the iteration is an estimate, hence a little further than needed.
-    dealii::SolverControl        control(max_iterations, .9 * tolerance * norm_b, false, false);
+    PacedControl                 control(max_iterations, .9 * tolerance * norm_b, is_impatient);
     dealii::SolverFGMRES<Vector> fgmres(
         control, dealii::SolverFGMRES<Vector>::AdditionalData(std::min(max_iterations, max_basis)));
     try

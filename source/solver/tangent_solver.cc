@@ -1,12 +1,8 @@
-#include <isochor/core/error.h>
-#include <isochor/core/memory.h>
 #include <isochor/form/predicted_stress.h>
 #include <isochor/solver/tangent_solver.h>
 
 #include <cmath>
-#include <iomanip>
 #include <sstream>
-#include <utility>
 
 namespace isochor
 {
@@ -18,17 +14,12 @@ namespace isochor
     // Far from equilibrium the tangent has negative eigenvalues, on which the block solver stagnates
     // at some per cent: still a step of inexact Newton.
     constexpr double acceptable_block_residual = 0.1;
-    // More, and new factors are cheaper.
-    constexpr unsigned int max_iterations_with_kept_factors = 10;
+    // More, and new factors are cheaper: an iteration took 6 to 9 % of a factorisation (P1-P1, 4,000
+    // and 24,000 unknowns).
+    constexpr unsigned int max_iterations_with_kept_factors = 6;
     // The same of a kept block preconditioner, against the iterations per digit when it was new.
-    constexpr double worth_keeping = 1.5;
-    // Of the memory that is available, for factors that nobody limits.
-    constexpr double usable_share = 0.8;
-    // Operations of a factorisation per entry of the matrix above which the block solver takes over.
-    // Its linear algebra took as long as that of kept factors at 2e3 to 6e3 (P1-P1s in 3D, 24,000 to
-    // 75,000 unknowns); far from equilibrium it is slower and it counts no pivots, hence the margin.
-    constexpr double worthwhile_flops = 3e4;
-    constexpr double rate_tolerance   = 1e-6;
+    constexpr double worth_keeping  = 1.5;
+    constexpr double rate_tolerance = 1e-6;
     // Of a linear problem, which is to take one iteration with factors.
     constexpr double smallest_matrix_free_tolerance = 1e-10;
 
@@ -67,79 +58,6 @@ namespace isochor
   } // namespace
 
   template <int dim>
-  TangentSolver<dim>::TangentSolver(const Equilibrium<dim> &equilibrium,
-                                    const LinearOptions    &options,
-                                    Stopwatch              &stopwatch)
-    : equilibrium(equilibrium)
-    , options(options)
-    , stopwatch(stopwatch)
-    , memory_limit(options.memory_limit > 0
-                       ? options.memory_limit
-                       : usable_share
-                             * available_megabytes(equilibrium.discretisation().communicator()))
-    , rotations(equilibrium.discretisation(), equilibrium.prescribed())
-  {
-    if (is_matrix_free(options.solver))
-      {
-        matrix_free = std::make_unique<MatrixFreeSolver<dim>>(
-            equilibrium,
-            options.solver == LinearSolver::cr ? KrylovMethod::conjugate_residuals
-                                               : KrylovMethod::conjugate_gradients);
-        return;
-      }
-    matrix = equilibrium.make_matrix();
-    if (options.solver == LinearSolver::automatic)
-      choose();
-    else if (const std::string refusal = use(options.solver); !refusal.empty())
-      throw UserError("Method/Memory limit: " + refusal
-                      + "; choose Method/Linear solver = block or automatic, a coarser mesh, or a "
-                        "higher limit");
-  }
-
-  template <int dim>
-  void TangentSolver<dim>::choose()
-  {
-    counts.note = use(LinearSolver::kept);
-    if (counts.note.empty() && equilibrium.discretisation().element.is_stable
-        && options.condensation != Condensation::pressure)
-      {
-        const double entries = dealii::Utilities::MPI::sum(
-            double(matrix.columns().size()), equilibrium.discretisation().communicator());
-        const double flops = backend->factors().predicted_flops();
-        if (flops > worthwhile_flops * entries)
-          {
-            std::ostringstream note;
-            note << "factors would take " << std::setprecision(3) << flops / 1e9 << " GFlop and "
-                 << counts.predicted_megabytes << " MB";
-            counts.note = note.str();
-          }
-      }
-    if (counts.note.empty())
-      return;
-    use(LinearSolver::block);
-    counts.note += ": the block solver is used, which does not count negative pivots";
-  }
-
-  template <int dim>
-  std::string TangentSolver<dim>::use(const LinearSolver solver)
-  {
-    const auto scope = stopwatch.measure(Phase::factorisation);
-    are_kept         = false;
-    backend.reset(); // its memory goes before the new one's comes
-    backend = std::make_unique<LinearBackend<dim>>(
-        equilibrium, solver, options.condensation, rotations, matrix);
-    const double megabytes = backend->factors().predicted_megabytes();
-    if (megabytes > 0.)
-      counts.predicted_megabytes = megabytes;
-    if (megabytes <= memory_limit)
-      return "";
-    std::ostringstream why;
-    why << "factors would take " << megabytes << " MB, the memory limit is " << std::setprecision(4)
-        << memory_limit << " MB";
-    return why.str();
-  }
-
-  template <int dim>
   void TangentSolver<dim>::assemble(const Vector                                       &state,
                                     const double                                        load,
                                     const PredictedStress                              *stress,
@@ -173,39 +91,6 @@ namespace isochor
     if (!(length > 0. && length < 1. + 1e-6 && rest.l2_norm() <= 1e-6 * change.l2_norm()))
       return {};
     return equilibrium.predict_stress(linearised_at, change);
-  }
-
-  template <int dim>
-  Factorisation TangentSolver<dim>::factor(const Vector &state)
-  {
-    const auto scope = stopwatch.measure(Phase::factorisation);
-    backend->start(state, scaling);
-    const Factorisation factorisation = backend->factors().factor(matrix);
-    ++counts.factorisations;
-    counts.flops       = factorisation.flops;
-    counts.megabytes   = factorisation.megabytes;
-    counts.null_pivots = factorisation.null_pivots;
-    counts.pivot_excess.reset();
-    if (factorisation.negative_pivots)
-      counts.pivot_excess = static_cast<long long>(*factorisation.negative_pivots)
-                            - static_cast<long long>(equilibrium.discretisation().n_pressures);
-    return factorisation;
-  }
-
-  template <int dim>
-  Factorisation TangentSolver<dim>::factor_or_use_double(const Vector &state)
-  {
-    const Factorisation factorisation = factor(state);
-    if (factorisation.succeeded || backend->solver() != LinearSolver::kept)
-      return factorisation;
-    counts.gave_up_single_precision = true;
-    if (const std::string refusal = use(LinearSolver::direct); !refusal.empty())
-      {
-        Factorisation refused;
-        refused.failure = factorisation.failure + "; in double precision, " + refusal;
-        return refused;
-      }
-    return factor(state);
   }
 
   template <int dim>
@@ -374,7 +259,8 @@ namespace isochor
                                         rhs,
                                         tolerance,
                                         are_kept ? max_iterations_when_kept(tolerance)
-                                                 : max_iterations(backend->solver()));
+                                                 : max_iterations(backend->solver()),
+                                        are_kept && backend->solver() == LinearSolver::kept);
     counts.krylov_iterations += outcome.krylov_iterations;
     // Written so that NaN fails.
     if (backend->solver() == LinearSolver::block)
@@ -399,52 +285,6 @@ namespace isochor
              "displacement elements far from a Poisson ratio of 0.5, on the way to a stable "
              "equilibrium; choose Method/Linear solver = kept or direct, or a stable element";
     return why.str();
-  }
-
-  template <int dim>
-  bool TangentSolver<dim>::is_near_last_linearisation(const Vector &state) const
-  {
-    // Displacements and pressures have different units.
-    double     sums[4] = {};
-    const auto n_u     = equilibrium.discretisation().n_owned_displacements;
-    for (LocalIndex i = 0; i < state.locally_owned_size(); ++i)
-      {
-        double *sum = &sums[i < n_u ? 0 : 2];
-        sum[0] += std::pow(state.local_element(i) - linearised_at.local_element(i), 2);
-        sum[1] += std::pow(state.local_element(i), 2);
-      }
-    dealii::Utilities::MPI::sum(sums, state.get_mpi_communicator(), sums);
-    constexpr double near = 1e-4;
-    return sums[0] <= near * near * sums[1] && sums[2] <= near * near * sums[3];
-  }
-
-  template <int dim>
-  void TangentSolver<dim>::certify(const Vector &state, const double load)
-  {
-    if (matrix_free || backend->solver() == LinearSolver::umfpack
-        || backend->solver() == LinearSolver::block)
-      return;
-    state.update_ghost_values();
-    if (is_fresh && !change_tangent && counts.pivot_excess == 0
-        && is_near_last_linearisation(state))
-      return;
-    are_kept = false;
-    // The tangent of the equilibrium itself counts.
-    const auto change = std::exchange(change_tangent, {});
-    assemble(state, load, nullptr, CurvatureFilter::none, {});
-    change_tangent = change;
-    rotations.start(state);
-    are_kept = factor_or_use_double(state).succeeded && backend->is_preconditioner();
-    if (backend->solver() == LinearSolver::kept && counts.pivot_excess != 0)
-      {
-        auto single = std::move(backend);
-        if (use(LinearSolver::direct).empty())
-          factor(state);
-        backend  = std::move(single);
-        are_kept = true;
-      }
-    are_kept = are_kept && !change_tangent;
-    is_fresh = false;
   }
 
   template class TangentSolver<2>;

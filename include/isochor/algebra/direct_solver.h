@@ -73,11 +73,13 @@ namespace isochor
 
   /// Solve matrix x = b with the factors; where the true residual is above @p tolerance (an
   /// unsymmetric matrix, delayed pivots), go on with FGMRES preconditioned by the factors, at most
-  /// @p max_iterations. Collective.
+  /// @p max_iterations; if @p is_impatient, only as long as its pace is good enough for these.
+  /// Collective.
   LinearSolve checked_solve(const SparseMatrix &matrix,
                             DirectSolver       &factors,
                             Vector             &x,
                             const Vector       &b,
                             double              tolerance,
-                            unsigned int        max_iterations);
+                            unsigned int        max_iterations,
+                            bool                is_impatient = false);
 } // namespace isochor
