@@ -52,8 +52,10 @@ REACH_ELEMENTS = ["P1", "P2", "P3", "P1-P1", "P2-P1"]
 # A step that fails is halved, unless the half is below the minimum.
 REACH_STEPPING = {"1 step": {"Method/Load steps": 1, "Method/Minimum load step": 1},
                   "10 steps": {"Method/Load steps": 10, "Method/Minimum load step": 0.1},
-                  "1 step, halved": {"Method/Load steps": 1, "Method/Minimum load step": 1e-3}}
-LIMIT = 120 # seconds of a run
+                  "1 step, halved": {"Method/Load steps": 1, "Method/Minimum load step": 1e-3},
+                  "adaptive": {"Method/Stepping": "adaptive", "Method/Load steps": 4,
+                               "Method/Minimum load step": 1e-3}}
+LIMIT = 40 # seconds of a run
 
 COUNTS = ["load steps", "failed steps", "newton iterations", "factorisations", "krylov iterations"]
 PHASES = ["assembly", "factorisation", "solve"]
