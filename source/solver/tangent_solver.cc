@@ -85,10 +85,12 @@ namespace isochor
     Vector change(state);
     change -= linearised_at;
     const double length = (change * last_step) / last_step.norm_sqr();
-    Vector       rest(change);
-    rest.add(-length, last_step);
     // Written so that NaN gives none.
-    if (!(length > 0. && length < 1. + 1e-6 && rest.l2_norm() <= 1e-6 * change.l2_norm()))
+    if (!(length > 0. && length < 1. + 1e-6))
+      return {};
+    Vector rest(change);
+    rest.add(-length, last_step);
+    if (!(rest.l2_norm() <= 1e-6 * change.l2_norm()))
       return {};
     return equilibrium.predict_stress(linearised_at, change);
   }
