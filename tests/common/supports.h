@@ -30,4 +30,21 @@ namespace isochor::testing
 
   template <int dim>
   const std::string all_components = dim == 2 ? "xy" : "xyz";
+
+  /// Young's modulus 3 Pa (mu = 1 Pa at nu = 0.5), the left side held, tractions on the right.
+  template <int dim>
+  Scene<dim> clamped_and_pulled(const double poisson_ratio)
+  {
+    Scene<dim> scene;
+    scene.material.youngs_modulus = 3.;
+    scene.material.poisson_ratio  = poisson_ratio;
+    scene.supports.push_back(held<dim>("left", all_components<dim>));
+    std::vector<Expression<dim>> components;
+    components.emplace_back("0.3", "test");
+    components.emplace_back("0.2*y", "test");
+    if (dim == 3)
+      components.emplace_back("-0.1", "test");
+    scene.tractions.push_back({"right", components});
+    return scene;
+  }
 } // namespace isochor::testing

@@ -17,24 +17,12 @@ namespace
   template <int dim>
   Scene<dim> clamped_and_pulled(const double poisson_ratio, const bool is_linear)
   {
-    Scene<dim> scene;
-    scene.material.youngs_modulus = 3.;
-    scene.material.poisson_ratio  = poisson_ratio;
+    Scene<dim> scene = isochor::testing::clamped_and_pulled<dim>(poisson_ratio);
     if (is_linear)
       {
         scene.material.energy            = Energy::linear;
         scene.material.volumetric_strain = VolumetricStrain::trace;
       }
-    scene.supports.push_back(
-        held<dim>("left", all_components<dim>, [](const dealii::Point<dim> &, double) {
-          return dealii::Tensor<1, dim>();
-        }));
-    std::vector<Expression<dim>> components;
-    components.emplace_back("0.3", "test");
-    components.emplace_back("0.2*y", "test");
-    if (dim == 3)
-      components.emplace_back("-0.1", "test");
-    scene.tractions.push_back({"right", components});
     return scene;
   }
 

@@ -12,22 +12,6 @@ using namespace isochor::testing;
 namespace
 {
   template <int dim>
-  Scene<dim> clamped_and_pulled(const double poisson_ratio)
-  {
-    Scene<dim> scene;
-    scene.material.youngs_modulus = 3.;
-    scene.material.poisson_ratio  = poisson_ratio;
-    scene.supports.push_back(held<dim>("left", all_components<dim>));
-    std::vector<Expression<dim>> components;
-    components.emplace_back("0.3", "test");
-    components.emplace_back("0.2*y", "test");
-    if (dim == 3)
-      components.emplace_back("-0.1", "test");
-    scene.tractions.push_back({"right", components});
-    return scene;
-  }
-
-  template <int dim>
   Solution<dim> solved(const Mesh<dim>                  &mesh,
                        const Discretisation<dim>        &discretisation,
                        const double                      poisson_ratio,
