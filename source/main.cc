@@ -1,5 +1,6 @@
 // The command line: parse, dispatch, and catch once.
 
+#include <isochor/core/blas_kernels.h>
 #include <isochor/core/version.h>
 #include <isochor/run/interrupt.h>
 #include <isochor/run/study.h>
@@ -91,6 +92,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  isochor::choose_blas_kernels(argv);
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool on_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 
