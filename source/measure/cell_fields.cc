@@ -1,3 +1,4 @@
+#include <isochor/material/lanes.h>
 #include <isochor/measure/cell_fields.h>
 
 #include <algorithm>
@@ -8,14 +9,6 @@ namespace isochor
 {
   namespace
   {
-    Batch square_root(const Batch &x)
-    {
-      Batch root;
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
-        root[lane] = std::sqrt(x[lane]);
-      return root;
-    }
-
     /// sigma = P F^T / J, then sqrt(3/2 s : s) of its deviator s.
     Batch von_mises_stress(const Deformation &deformation, const Response &response)
     {
@@ -36,7 +29,7 @@ namespace isochor
           for (int j = 0; j < 3; ++j)
             squared += sigma[i][j] * sigma[i][j];
         }
-      return square_root(1.5 * squared);
+      return sqrt(1.5 * squared);
     }
   } // namespace
 

@@ -47,7 +47,7 @@ namespace isochor
 
   inline Batch sqrt(const Batch &x)
   {
-    Batch result;
+    Batch result{};
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
       result[lane] = std::sqrt(x[lane]);
     return result;
