@@ -166,6 +166,14 @@ namespace isochor
                       "Of the factors, all MPI ranks together, MB (1e6 bytes). 0: 80 % of what the "
                       "machines have available when the run starts.");
     prm.declare_entry(
+        "Newton tangent",
+        newton_tangent_names.name(linear.tangent),
+        dealii::Patterns::Selection(newton_tangent_names.selection()),
+        "predicted stress: the geometric stiffness of the stress that the last iteration's tangent "
+        "foretold for this state (Magisano and others 2017); fewer iterations where the stress "
+        "follows the strain steeply, as near a Poisson ratio of 0.5. consistent: the derivative of "
+        "the unbalanced forces, Newton's method as in textbooks.");
+    prm.declare_entry(
         "Nested levels",
         "0",
         dealii::Patterns::Integer(0, 10),
@@ -198,6 +206,8 @@ namespace isochor
         = linear_solver_names.value(prm.get("Linear solver"), "Method/Linear solver");
     method.linear.condensation
         = condensation_names.value(prm.get("Condensation"), "Method/Condensation");
+    method.linear.tangent
+        = newton_tangent_names.value(prm.get("Newton tangent"), "Method/Newton tangent");
     method.linear.memory_limit = parse_number(prm.get("Memory limit"), "Method/Memory limit");
     method.stepping.parse(prm);
     method.newton.parse(prm);
@@ -213,8 +223,9 @@ namespace isochor
     check_condensation(method, material);
     check_solver(method);
     if (method.solver == Solver::dual_ascent && method.stepping.kind == Stepping::arc_length)
-      throw UserError("Method/Stepping: arc length follows a path with Newton's method only; choose "
-                      "fixed or adaptive, or Method/Solver = Newton");
+      throw UserError(
+          "Method/Stepping: arc length follows a path with Newton's method only; choose "
+          "fixed or adaptive, or Method/Solver = Newton");
     if (method.linear.solver == LinearSolver::umfpack && n_ranks > 1)
       throw UserError("Method/Linear solver: UMFPACK runs on one rank, not on "
                       + std::to_string(n_ranks) + "; choose direct or automatic");

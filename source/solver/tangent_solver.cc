@@ -80,7 +80,8 @@ namespace isochor
   template <int dim>
   std::unique_ptr<PredictedStress> TangentSolver<dim>::predicted_stress(const Vector &state) const
   {
-    if (last_step.size() == 0 || equilibrium.is_linear())
+    if (options.tangent == NewtonTangent::consistent || last_step.size() == 0
+        || equilibrium.is_linear())
       return {};
     Vector change(state);
     change -= linearised_at;

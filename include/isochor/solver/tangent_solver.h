@@ -13,11 +13,21 @@
 
 namespace isochor
 {
+  /// Which stress the geometric part of Newton's tangent holds.
+  enum class NewtonTangent
+  {
+    predicted, ///< S + dS / dx step of the last iteration (predicted_stress.h)
+    consistent ///< of the state: the derivative of the residual
+  };
+  inline constexpr auto newton_tangent_names = name_table<NewtonTangent>(
+      {{NewtonTangent::predicted, "predicted stress"}, {NewtonTangent::consistent, "consistent"}});
+
   struct LinearOptions
   {
-    LinearSolver solver       = LinearSolver::automatic;
-    Condensation condensation = Condensation::automatic;
-    double       memory_limit = 0.; ///< of factors, all ranks, MB; 0: most of what is available
+    LinearSolver  solver       = LinearSolver::automatic;
+    Condensation  condensation = Condensation::automatic;
+    double        memory_limit = 0.; ///< of factors, all ranks, MB; 0: most of what is available
+    NewtonTangent tangent      = NewtonTangent::predicted;
   };
 
   struct LinearStatistics
@@ -101,17 +111,21 @@ namespace isochor
     /// For a @p state that Newton's last step led to; null for any other.
     std::unique_ptr<PredictedStress> predicted_stress(const Vector &state) const;
     Factorisation                    factor(const Vector &state);
-    Factorisation                    factor_or_use_double(const Vector &state);
-    NewtonProblem::Correction        matrix_free_correction(const Vector &state,
-                                                            double        load,
-                                                            const Vector &residual,
-                                                            double        tolerance,
-                                                            Vector       &step,
-                                                            Vector       *rate);
-    unsigned int                     max_iterations_when_kept(double tolerance) const;
-    LinearSolve                      solve(const Vector &rhs, double tolerance, Vector &step);
-    std::string                      complaint(const LinearSolve &outcome) const;
-    bool                             is_near_last_linearisation(const Vector &state) const;
+    /// In double precision, for good, if single precision fails or, where that matters (always if @p
+    /// is_final), its pivots are in doubt.
+    Factorisation factor_or_use_double(const Vector &state, bool is_final = false);
+    /// The factors tell the signs of the matrix' pivots from rounding. Collective.
+    bool                      pivots_are_sure() const;
+    NewtonProblem::Correction matrix_free_correction(const Vector &state,
+                                                     double        load,
+                                                     const Vector &residual,
+                                                     double        tolerance,
+                                                     Vector       &step,
+                                                     Vector       *rate);
+    unsigned int              max_iterations_when_kept(double tolerance) const;
+    LinearSolve               solve(const Vector &rhs, double tolerance, Vector &step);
+    std::string               complaint(const LinearSolve &outcome) const;
+    bool                      is_near_last_linearisation(const Vector &state) const;
 
     const Equilibrium<dim>             &equilibrium;
     LinearOptions                       options;
