@@ -4,9 +4,10 @@
 // batches of eight. Included by the files that instantiate it only.
 
 #include <isochor/element/cell_quadrature.h>
+#include <isochor/form/batch_geometry.h>
 #include <isochor/form/elasticity_kernel.h>
-#include <isochor/form/local_system.h>
 #include <isochor/form/predicted_stress.h>
+#include <isochor/form/quadrature_tangent.templates.h>
 
 #include <algorithm>
 
@@ -17,44 +18,16 @@ namespace isochor
   {
   public:
     static constexpr bool mixed = n_p > 0;
-    using System                = LocalSystem<dim, n_x, n_p>;
+    using Tangent               = QuadratureTangent<dim, n_x, n_p>;
+    using System                = typename Tangent::System;
+    using PointBatch            = typename Tangent::PointBatch;
+    using PointTangent          = typename Tangent::PointTangent;
 
     explicit QuadratureKernel(const Discretisation<dim> &discretisation)
+      : QuadratureKernel(
+          discretisation,
+          cell_quadrature<dim>(discretisation.cells.kind, discretisation.quadrature_degree()))
     {
-      const CellTables<dim> &cells = discretisation.cells;
-      const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.quadrature_degree());
-      const unsigned int n_batches = (quadrature.size() + n_lanes - 1) / n_lanes;
-      points.resize(n_batches);
-      for (unsigned int k = 0; k < n_batches * n_lanes; ++k)
-        {
-          // Lanes beyond the last point repeat it with weight zero.
-          const unsigned int q    = std::min(k, quadrature.size() - 1);
-          PointBatch        &at   = points[k / n_lanes];
-          const unsigned int lane = k % n_lanes;
-          at.weight[lane]         = k < quadrature.size() ? quadrature.weight(k) : 0.;
-          for (int a = 0; a < n_x; ++a)
-            {
-              const auto gradient = discretisation.x_shape.gradient(a, quadrature.point(q));
-              for (int d = 0; d < dim; ++d)
-                at.x_gradient[a][d][lane] = gradient[d];
-            }
-          for (int j = 0; j < n_p; ++j)
-            at.p_value[j][lane] = discretisation.p_shape.value(j, quadrature.point(q));
-        }
-
-      if (!cells.all_affine)
-        for (unsigned int k = 0; k < n_batches; ++k)
-          for (unsigned int i = 0; i < cells.n_g; ++i)
-            {
-              geometry_gradients.emplace_back();
-              for (unsigned int lane = 0; lane < n_lanes; ++lane)
-                {
-                  const unsigned int q = std::min(k * n_lanes + lane, quadrature.size() - 1);
-                  const auto gradient  = cells.geometry_shape->gradient(i, quadrature.point(q));
-                  for (int d = 0; d < dim; ++d)
-                    geometry_gradients.back()[d][lane] = gradient[d];
-                }
-            }
     }
 
     Evaluation
@@ -86,12 +59,12 @@ namespace isochor
             system->add_residual(cells, cell, residual);
           if (target.tangent != nullptr)
             {
-              tangent(data.energy->is_symmetric(), tangents, *system);
+              Tangent::matrix(data.energy->is_symmetric(), points, tangents, *system);
               system->add_tangent(cells, cell, *target.offsets, *target.tangent);
             }
           if (target.product != nullptr)
             {
-              differential(cells, cell, target.direction->begin(), tangents, *system);
+              Tangent::product(cells, cell, target.direction->begin(), points, tangents, *system);
               system->add_residual(cells, cell, target.product->begin());
             }
         }
@@ -99,33 +72,28 @@ namespace isochor
     }
 
   private:
-    /// Reference shape tables at eight quadrature points.
-    struct PointBatch
+    QuadratureKernel(const Discretisation<dim>     &discretisation,
+                     const dealii::Quadrature<dim> &quadrature)
+      : geometry(discretisation.cells, quadrature)
     {
-      Batch x_gradient[n_x][dim];
-      Batch p_value[System::n_q];
-      Batch weight;
-    };
-
-    /// What the tangent needs of eight quadrature points, with the weight in it.
-    struct PointTangent
-    {
-      Batch gradient[n_x][dim];    ///< dN_a / dX
-      Batch A[dim][dim][dim][dim]; ///< weighted
-      Batch d_phi[dim][dim];       ///< dPhi/dF, weighted
-    };
-
-    static void gather(const CellTables<dim> &cells,
-                       const std::size_t      cell,
-                       const double          *values,
-                       double (&u)[n_x][dim],
-                       double (&p)[System::n_q])
-    {
-      for (int a = 0; a < n_x; ++a)
-        for (int c = 0; c < dim; ++c)
-          u[a][c] = values[cells.x[cell * n_x + a] + c];
-      for (int j = 0; j < n_p; ++j)
-        p[j] = values[cells.p[cell * n_p + j]];
+      const unsigned int n_batches = (quadrature.size() + n_lanes - 1) / n_lanes;
+      points.resize(n_batches);
+      for (unsigned int k = 0; k < n_batches * n_lanes; ++k)
+        {
+          // Lanes beyond the last point repeat it with weight zero.
+          const unsigned int q    = std::min(k, quadrature.size() - 1);
+          PointBatch        &at   = points[k / n_lanes];
+          const unsigned int lane = k % n_lanes;
+          at.weight[lane]         = k < quadrature.size() ? quadrature.weight(k) : 0.;
+          for (int a = 0; a < n_x; ++a)
+            {
+              const auto gradient = discretisation.x_shape.gradient(a, quadrature.point(q));
+              for (int d = 0; d < dim; ++d)
+                at.x_gradient[a][d][lane] = gradient[d];
+            }
+          for (int j = 0; j < n_p; ++j)
+            at.p_value[j][lane] = discretisation.p_shape.value(j, quadrature.point(q));
+        }
     }
 
     /// Residual of one cell, and what its tangent needs. Returns the value of the term.
@@ -141,7 +109,7 @@ namespace isochor
                    Evaluation                &evaluation) const
     {
       double u[n_x][dim], p[System::n_q];
-      gather(cells, cell, values, u, p);
+      Tangent::gather(cells, cell, values, u, p);
 
       Batch value{}, r_u[n_x][dim] = {}, r_p[System::n_q] = {};
       Batch mass[System::n_q][System::n_q] = {}, first[System::n_q] = {}; // int N_j N_k, int N_j
@@ -149,7 +117,7 @@ namespace isochor
         {
           const PointBatch &at     = points[k];
           PointTangent     &keep   = tangents[k];
-          const Geometry    map    = geometry(cells, cell, k);
+          const auto        map    = geometry.map(cells, cell, k);
           const Batch       weight = map.determinant * at.weight;
 
           for (int a = 0; a < n_x; ++a)
@@ -261,181 +229,8 @@ namespace isochor
           }
     }
 
-    void
-    tangent(const bool is_symmetric, const std::vector<PointTangent> &tangents, System &out) const
-    {
-      // For one node b the products A : dN_b of all points stay in the first-level cache
-      // while all nodes a run over them.
-      std::vector<ProductBatch> products(tangents.size());
-      for (int b = 0; b < n_x; ++b)
-        {
-          for (std::size_t k = 0; k < tangents.size(); ++k)
-            {
-              const PointTangent &at = tangents[k];
-              for (int i = 0; i < dim; ++i)
-                for (int J = 0; J < dim; ++J)
-                  for (int l = 0; l < dim; ++l)
-                    {
-                      Batch product = at.A[i][J][l][0] * at.gradient[b][0];
-                      for (int L = 1; L < dim; ++L)
-                        product += at.A[i][J][l][L] * at.gradient[b][L];
-                      products[k].B[J][i][l] = product;
-                    }
-              if constexpr (mixed)
-                for (int i = 0; i < dim; ++i)
-                  {
-                    Batch normal = at.d_phi[i][0] * at.gradient[b][0];
-                    for (int L = 1; L < dim; ++L)
-                      normal += at.d_phi[i][L] * at.gradient[b][L];
-                    products[k].normal[i] = normal;
-                  }
-            }
-
-          for (int a = 0; a <= (is_symmetric ? b : n_x - 1); ++a)
-            {
-              Batch K[dim][dim] = {};
-              for (std::size_t k = 0; k < tangents.size(); ++k)
-                for (int J = 0; J < dim; ++J)
-                  for (int i = 0; i < dim; ++i)
-                    for (int l = 0; l < dim; ++l)
-                      K[i][l] += products[k].B[J][i][l] * tangents[k].gradient[a][J];
-              for (int i = 0; i < dim; ++i)
-                for (int l = 0; l < dim; ++l)
-                  {
-                    const double entry              = sum(K[i][l]);
-                    out.K[dim * a + i][dim * b + l] = entry;
-                    if (is_symmetric)
-                      out.K[dim * b + l][dim * a + i] = entry;
-                  }
-            }
-
-          for (int j = 0; j < n_p; ++j)
-            for (int i = 0; i < dim; ++i)
-              {
-                Batch G{};
-                for (std::size_t k = 0; k < tangents.size(); ++k)
-                  G += products[k].normal[i] * points[k].p_value[j];
-                out.G[j][dim * b + i] = sum(G);
-              }
-        }
-    }
-
-    /// The change of the residual along a direction: dP = A : dF + dp dPhi/dF, without the cell's
-    /// matrix. C of @p out is that of the cell; its residual is overwritten.
-    void differential(const CellTables<dim>           &cells,
-                      const std::size_t                cell,
-                      const double                    *direction,
-                      const std::vector<PointTangent> &tangents,
-                      System                          &out) const
-    {
-      double du[n_x][dim], dp[System::n_q];
-      gather(cells, cell, direction, du, dp);
-
-      Batch r_u[n_x][dim] = {}, r_p[System::n_q] = {};
-      for (std::size_t k = 0; k < points.size(); ++k)
-        {
-          const PointTangent &at           = tangents[k];
-          Batch               dF[dim][dim] = {};
-          for (int a = 0; a < n_x; ++a)
-            for (int i = 0; i < dim; ++i)
-              for (int J = 0; J < dim; ++J)
-                dF[i][J] += du[a][i] * at.gradient[a][J];
-          Batch dq{}, strain{};
-          for (int j = 0; j < n_p; ++j)
-            dq += dp[j] * points[k].p_value[j];
-
-          for (int i = 0; i < dim; ++i)
-            for (int J = 0; J < dim; ++J)
-              {
-                Batch dP = dq * at.d_phi[i][J];
-                for (int l = 0; l < dim; ++l)
-                  for (int L = 0; L < dim; ++L)
-                    dP += at.A[i][J][l][L] * dF[l][L];
-                for (int a = 0; a < n_x; ++a)
-                  r_u[a][i] += dP * at.gradient[a][J];
-                strain += at.d_phi[i][J] * dF[i][J];
-              }
-          for (int j = 0; j < n_p; ++j)
-            r_p[j] += strain * points[k].p_value[j];
-        }
-
-      for (int a = 0; a < n_x; ++a)
-        for (int i = 0; i < dim; ++i)
-          out.r_u[dim * a + i] = sum(r_u[a][i]);
-      for (int j = 0; j < n_p; ++j)
-        {
-          out.r_p[j] = sum(r_p[j]);
-          for (int l = 0; l < n_p; ++l)
-            out.r_p[j] -= out.C[j][l] * dp[l];
-        }
-    }
-
-    struct ProductBatch
-    {
-      Batch B[dim][dim][dim]; ///< [J][i][k] = A_iJkL dN_b/dX_L
-      Batch normal[dim];      ///< dPhi/dF dN_b/dX
-    };
-
-    /// d xi / d X and det dX / d xi at eight quadrature points.
-    struct Geometry
-    {
-      Batch inverse[dim][dim];
-      Batch determinant;
-    };
-
-    Geometry
-    geometry(const CellTables<dim> &cells, const std::size_t cell, const std::size_t k) const
-    {
-      Geometry map;
-      if (cells.is_affine[cell])
-        {
-          for (int d = 0; d < dim; ++d)
-            for (int J = 0; J < dim; ++J)
-              map.inverse[d][J] = batch(cells.inverse(cell)[d * dim + J]);
-          map.determinant = batch(cells.determinant[cell]);
-          return map;
-        }
-
-      Batch jacobian[dim][dim] = {}; // [J][d] = d X_J / d xi_d
-      for (unsigned int i = 0; i < cells.n_g; ++i)
-        {
-          const auto &X = cells.geometry[cell * cells.n_g + i];
-          const auto &g = geometry_gradients[k * cells.n_g + i];
-          for (int J = 0; J < dim; ++J)
-            for (int d = 0; d < dim; ++d)
-              jacobian[J][d] += X[J] * g[d];
-        }
-      invert(jacobian, map);
-      return map;
-    }
-
-    static void invert(const Batch (&A)[dim][dim], Geometry &map)
-    {
-      Batch cofactor[dim][dim]; // of A
-      if constexpr (dim == 2)
-        {
-          cofactor[0][0] = A[1][1];
-          cofactor[0][1] = -A[1][0];
-          cofactor[1][0] = -A[0][1];
-          cofactor[1][1] = A[0][0];
-        }
-      else
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            {
-              const int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
-              cofactor[i][j] = A[k][m] * A[l][n] - A[k][n] * A[l][m];
-            }
-      map.determinant = A[0][0] * cofactor[0][0];
-      for (int j = 1; j < dim; ++j)
-        map.determinant += A[0][j] * cofactor[0][j];
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          map.inverse[j][i] = cofactor[i][j] / map.determinant;
-    }
-
-    std::vector<PointBatch>             points;
-    std::vector<std::array<Batch, dim>> geometry_gradients; ///< [batch * n_g + i], if not affine
+    std::vector<PointBatch> points;
+    BatchGeometry<dim>      geometry;
   };
 
   template <int dim>
