@@ -49,9 +49,17 @@ namespace isochor
       }
     };
 
-    Part local_part(const SparseMatrix             &matrix,
-                    const std::vector<GlobalIndex> &node_of_row,
-                    const idx_t                     n_nodes)
+    /// Where each of @p values stands in @p all, which ascend and hold it.
+    std::vector<idx_t> places_in(const std::vector<idx_t> &all, const std::vector<idx_t> &values)
+    {
+      std::vector<idx_t> places;
+      places.reserve(values.size());
+      for (const idx_t value : values)
+        places.push_back(std::lower_bound(all.begin(), all.end(), value) - all.begin());
+      return places;
+    }
+
+    Part local_part(const SparseMatrix &matrix, const std::vector<GlobalIndex> &node_of_row)
     {
       // Nodes of the ghost unknowns come by the usual exchange; a double holds them exactly.
       Vector nodes(matrix.partitioner());
@@ -65,14 +73,21 @@ namespace isochor
       Part part;
       part.first_row = matrix.partitioner()->local_range().first;
       part.node_of_row.assign(node_of.begin(), node_of.begin() + matrix.n_rows());
-      const Lists        rows = grouped(part.node_of_row, n_nodes);
-      std::vector<idx_t> seen_by(n_nodes, -1);
-      for (idx_t node = 0; node < n_nodes; ++node)
+
+      // By their places among the nodes that this rank knows: nothing here grows with the whole mesh.
+      std::vector<idx_t> known = node_of;
+      std::sort(known.begin(), known.end());
+      known.erase(std::unique(known.begin(), known.end()), known.end());
+      node_of             = places_in(known, node_of);
+      const idx_t n_known = known.size();
+      const Lists rows    = grouped({node_of.begin(), node_of.begin() + matrix.n_rows()}, n_known);
+      std::vector<idx_t> seen_by(n_known, -1);
+      for (idx_t node = 0; node < n_known; ++node)
         {
           if (rows.start[node] == rows.start[node + 1])
             continue;
           seen_by[node] = node; // no edge to itself
-          part.edges.push_back(node);
+          part.edges.push_back(known[node]);
           part.edges.push_back(0);
           const std::size_t count = part.edges.size() - 1;
           for (std::size_t k = rows.start[node]; k < rows.start[node + 1]; ++k)
@@ -84,7 +99,7 @@ namespace isochor
                 if (seen_by[other] != node)
                   {
                     seen_by[other] = node;
-                    part.edges.push_back(other);
+                    part.edges.push_back(known[other]);
                   }
               }
           part.edges[count] = part.edges.size() - count - 1;
@@ -145,7 +160,7 @@ namespace isochor
     if (std::max(n, n_nodes) > GlobalIndex(std::numeric_limits<idx_t>::max()))
       throw std::runtime_error("too many unknowns for METIS' 32-bit indices");
 
-    Part                    mine  = local_part(matrix, node_of_row, n_nodes);
+    Part                    mine  = local_part(matrix, node_of_row);
     const std::vector<Part> parts = dealii::Utilities::MPI::n_mpi_processes(communicator) == 1
                                         ? std::vector<Part>{std::move(mine)}
                                         : dealii::Utilities::MPI::gather(communicator, mine, 0);
