@@ -263,16 +263,19 @@ namespace isochor
     MarchReport Path<dim>::follow(const MarchState &begin)
     {
       report = begin.report;
-      if (!begin.vectors.empty())
+      if (begin.state.size() > 0)
         {
-          here        = {begin.vectors[0], report.load};
-          tangent     = {begin.vectors[1], begin.numbers[1]};
-          has_tangent = true;
-          step_control.resume(begin.numbers[0]);
-          displacement_scale = begin.numbers[2];
+          here = {begin.state, report.load};
           here.x.update_ghost_values();
           state = here.x;
           state.update_ghost_values();
+          step_control.resume(begin.next_step);
+        }
+      if (begin.path_history)
+        {
+          tangent            = {begin.path_history->tangent, begin.path_history->tangent_load};
+          has_tangent        = true;
+          displacement_scale = begin.path_history->displacement_scale;
         }
       // Some materials are not at rest without a load.
       newton = control.solve(here.load, here.x, size, CurvatureFilter::none);
@@ -307,8 +310,10 @@ namespace isochor
                   if (control.callbacks.resumable && !has_ended())
                     control.callbacks.resumable(
                         {report,
-                         {here.x, tangent.x},
-                         {step_control.step(), tangent.load, displacement_scale}});
+                         here.x,
+                         step_control.step(),
+                         {},
+                         MarchState::PathHistory{tangent.x, tangent.load, displacement_scale}});
                   break;
                 }
               if (newton.outcome == NewtonOutcome::interrupted)

@@ -68,13 +68,16 @@ namespace isochor
       // From an unstable equilibrium on, the next is likely to be so too, and the filter only leads
       // away from it; where it has failed, it may be for that reason.
       bool is_unstable = false, filters = true;
-      if (!begin.vectors.empty())
+      if (begin.state.size() > 0)
         {
-          state = begin.vectors[0];
+          state = begin.state;
           state.update_ghost_values();
-          extrapolation.remember(begin.vectors[1], begin.numbers[1]);
-          step_control.resume(begin.numbers[0]);
-          is_unstable = begin.numbers[2] != 0.;
+          step_control.resume(begin.next_step);
+        }
+      if (begin.load_history)
+        {
+          extrapolation.remember(begin.load_history->before, begin.load_history->load_before);
+          is_unstable = begin.load_history->is_unstable;
           filters     = !is_unstable;
         }
       Vector trial(state);
@@ -110,10 +113,13 @@ namespace isochor
               filters     = !is_unstable;
               callbacks.converged(done, state);
               if (callbacks.resumable && load < 1.)
-                callbacks.resumable(
-                    {report,
-                     {state, extrapolation.before},
-                     {step_control.step(), extrapolation.load_before, is_unstable ? 1. : 0.}});
+                callbacks.resumable({report,
+                                     state,
+                                     step_control.step(),
+                                     MarchState::LoadHistory{extrapolation.before,
+                                                             extrapolation.load_before,
+                                                             is_unstable},
+                                     {}});
             }
           else if (newton_report.outcome == NewtonOutcome::interrupted)
             {
@@ -148,36 +154,18 @@ namespace isochor
   } // namespace
 
   template <int dim>
-  MarchReport march_quasi_static(const Equilibrium<dim> &equilibrium,
-                                 TangentSolver<dim>     &tangent_solver,
-                                 const NewtonOptions    &newton_options,
+  MarchReport march_quasi_static(const LoadControl<dim> &control,
                                  const SteppingOptions  &stepping,
-                                 const MarchCallbacks   &callbacks,
-                                 Stopwatch              &stopwatch,
                                  Vector                 &state,
                                  const MarchState       &begin)
   {
-    const LoadControl<dim> control(
-        equilibrium, tangent_solver, newton_options, callbacks, stopwatch);
     if (stepping.kind == Stepping::arc_length)
       return march_along_path(control, stepping, state, begin);
     return march_in_steps(control, stepping, state, begin);
   }
 
-  template MarchReport march_quasi_static(const Equilibrium<2> &,
-                                          TangentSolver<2> &,
-                                          const NewtonOptions &,
-                                          const SteppingOptions &,
-                                          const MarchCallbacks &,
-                                          Stopwatch &,
-                                          Vector &,
-                                          const MarchState &);
-  template MarchReport march_quasi_static(const Equilibrium<3> &,
-                                          TangentSolver<3> &,
-                                          const NewtonOptions &,
-                                          const SteppingOptions &,
-                                          const MarchCallbacks &,
-                                          Stopwatch &,
-                                          Vector &,
-                                          const MarchState &);
+  template MarchReport
+  march_quasi_static(const LoadControl<2> &, const SteppingOptions &, Vector &, const MarchState &);
+  template MarchReport
+  march_quasi_static(const LoadControl<3> &, const SteppingOptions &, Vector &, const MarchState &);
 } // namespace isochor

@@ -23,9 +23,10 @@ namespace isochor
     namespace MPI = dealii::Utilities::MPI;
 
     /// To be counted up when what runs save changes.
-    constexpr std::string_view format = "Isochor checkpoint 1\n";
-    constexpr const char      *prefix = "checkpoint_";
-    constexpr const char      *ranks  = "number of ranks";
+    constexpr std::string_view format     = "Isochor checkpoint 2\n";
+    constexpr std::string_view any_format = format.substr(0, format.rfind(' ') + 1);
+    constexpr const char      *prefix     = "checkpoint_";
+    constexpr const char      *ranks      = "number of ranks";
 
     struct Header
     {
@@ -93,6 +94,12 @@ namespace isochor
     const std::string text  = all.str();
     const std::size_t begin = format.size() + sizeof(Header);
     Header            header;
+    if (text.starts_with(any_format) && !text.starts_with(format))
+      throw UserError("--restart: '" + piece(number, rank).string()
+                      + "' was saved by another version of Isochor, as '"
+                      + text.substr(0, text.find('\n')) + "'; allowed: '"
+                      + std::string(format.substr(0, format.size() - 1))
+                      + "', or a run from the start with --overwrite");
     if (text.size() < begin || !text.starts_with(format))
       return {};
     std::memcpy(&header, text.data() + format.size(), sizeof header);

@@ -1,4 +1,5 @@
 #include <isochor/core/text.h>
+#include <isochor/march/quasi_static.h>
 #include <isochor/mesh/generator.h>
 #include <isochor/run/nested.h>
 #include <isochor/run/saved_run.h>
@@ -43,129 +44,123 @@ namespace isochor
     return make_mesh<dim>(request, communicator);
   }
 
-  template <int dim>
-  bool begin_coarse(const Scene<dim>            &fine_scene,
-                    const Method                &fine_method,
-                    const Equilibrium<dim>      &fine,
-                    const std::function<bool()> &interrupted,
-                    Stopwatch                   &stopwatch,
-                    NestedReport                &report,
-                    Vector                      &state)
+  namespace
   {
-    Scene<dim> scene = fine_scene;
-    scene.mesh       = coarser(scene.mesh);
-    Method method    = fine_method;
-    --method.nested_levels;
-    method.newton.tolerance = std::max(method.newton.tolerance, coarse_tolerance);
-
-    std::unique_ptr<Mesh<dim>> mesh;
+    /// Set @p state to the equilibrium at the full load on the coarser mesh, with the prescribed
+    /// displacements of @p fine. False, and a remark, if the coarse mesh has none.
+    template <int dim>
+    bool begin_coarse(const Scene<dim>       &fine_scene,
+                      const Method           &fine_method,
+                      const LoadControl<dim> &fine,
+                      NestedReport           &report,
+                      Vector                 &state)
     {
-      const auto scope = stopwatch.measure(Phase::mesh);
-      mesh             = make_mesh_for(scene, method, state.get_mpi_communicator());
-    }
-    std::optional<Stopwatch::Scope> setup(std::in_place, stopwatch, Phase::setup);
-    const Discretisation<dim> discretisation(mesh->triangulation, method.element, mesh->geometry);
-    const Equilibrium<dim>    equilibrium(
-        discretisation,
-        scene,
-        [&](const std::string &name, const std::string &what) {
-          return mesh->boundary_id(name, what);
-        },
-        method.compliance);
-    setup.reset();
+      Scene<dim> scene = fine_scene;
+      scene.mesh       = coarser(scene.mesh);
+      Method method    = fine_method;
+      --method.nested_levels;
+      method.newton.tolerance = std::max(method.newton.tolerance, coarse_tolerance);
+      Stopwatch &stopwatch    = fine.stopwatch;
 
-    TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
-    MarchCallbacks     callbacks;
-    callbacks.converged   = [](const LoadStep &, const Vector &) {};
-    callbacks.failed      = [](double, const NewtonReport &, double) {};
-    callbacks.interrupted = interrupted;
-    Vector coarse_state   = discretisation.make_vector();
-    coarse_state.update_ghost_values();
-
-    MarchReport march;
-    if (method.nested_levels > 0
-        && begin_coarse(scene, method, equilibrium, interrupted, stopwatch, report, coarse_state))
-      march = march_from_guess(
-          equilibrium, tangent_solver, method, callbacks, stopwatch, report.remarks, coarse_state);
-    else
-      march = march_quasi_static(equilibrium,
-                                 tangent_solver,
-                                 method.newton,
-                                 method.stepping,
-                                 callbacks,
-                                 stopwatch,
-                                 coarse_state);
-    report.newton_iterations += march.newton_iterations;
-    report.linear = joined(report.linear, tangent_solver.statistics());
-    if (!march.converged())
+      std::unique_ptr<Mesh<dim>> mesh;
       {
-        report.remarks.push_back("nested iteration: no equilibrium on the mesh of "
-                                 + std::to_string(discretisation.n_cells) + " cells ("
-                                 + march.reason + "); begun from rest");
-        return false;
+        const auto scope = stopwatch.measure(Phase::mesh);
+        mesh             = make_mesh_for(scene, method, state.get_mpi_communicator());
       }
+      std::optional<Stopwatch::Scope> setup(std::in_place, stopwatch, Phase::setup);
+      const Discretisation<dim> discretisation(mesh->triangulation, method.element, mesh->geometry);
+      const Equilibrium<dim>    equilibrium(
+          discretisation,
+          scene,
+          [&](const std::string &name, const std::string &what) {
+            return mesh->boundary_id(name, what);
+          },
+          method.compliance);
+      setup.reset();
 
-    const auto scope = stopwatch.measure(Phase::setup);
-    interpolate(discretisation, coarse_state, fine.discretisation(), state);
-    Vector gap(state);
-    fine.prescribed().gap(state, 1., gap);
-    state += gap;
-    state.update_ghost_values();
-    return true;
-  }
+      TangentSolver<dim> tangent_solver(equilibrium, method.linear, stopwatch);
+      MarchCallbacks     callbacks;
+      callbacks.converged   = [](const LoadStep &, const Vector &) {};
+      callbacks.failed      = [](double, const NewtonReport &, double) {};
+      callbacks.interrupted = fine.callbacks.interrupted;
+      const LoadControl<dim> control(
+          equilibrium, tangent_solver, method.newton, callbacks, stopwatch);
+      Vector coarse_state = discretisation.make_vector();
+      coarse_state.update_ghost_values();
+
+      const MarchState  rest;
+      const MarchReport march = march_nested(scene, method, control, report, coarse_state, rest);
+      report.newton_iterations += march.newton_iterations;
+      report.linear = joined(report.linear, tangent_solver.statistics());
+      if (!march.converged())
+        {
+          report.remarks.push_back("nested iteration: no equilibrium on the mesh of "
+                                   + std::to_string(discretisation.n_cells) + " cells ("
+                                   + march.reason + "); begun from rest");
+          return false;
+        }
+
+      const auto scope = stopwatch.measure(Phase::setup);
+      interpolate(discretisation, coarse_state, fine.equilibrium.discretisation(), state);
+      Vector gap(state);
+      fine.equilibrium.prescribed().gap(state, 1., gap);
+      state += gap;
+      state.update_ghost_values();
+      return true;
+    }
+
+    /// March in one step from @p state, which is near the equilibrium at the full load; if that
+    /// fails, from rest in the steps that @p stepping asks for.
+    template <int dim>
+    MarchReport march_from_guess(const LoadControl<dim>   &control,
+                                 const SteppingOptions    &stepping,
+                                 std::vector<std::string> &remarks,
+                                 Vector                   &state)
+    {
+      SteppingOptions one_step = stepping;
+      one_step.kind            = Stepping::fixed;
+      one_step.load_steps      = 1;
+      one_step.minimum_step    = 1.;
+      MarchState        begin;
+      const MarchReport report = march_quasi_static(control, one_step, state, begin);
+      if (report.status != RunStatus::not_converged)
+        return report;
+
+      remarks.push_back(
+          "nested iteration: the interpolated state led to no equilibrium on the mesh of "
+          + std::to_string(control.equilibrium.discretisation().n_cells)
+          + " cells; begun from rest");
+      state = 0.;
+      state.update_ghost_values();
+      begin.report.failed_steps      = report.failed_steps;
+      begin.report.newton_iterations = report.newton_iterations;
+      return march_quasi_static(control, stepping, state, begin);
+    }
+  } // namespace
 
   template <int dim>
-  MarchReport march_from_guess(const Equilibrium<dim>   &equilibrium,
-                               TangentSolver<dim>       &tangent_solver,
-                               const Method             &method,
-                               const MarchCallbacks     &callbacks,
-                               Stopwatch                &stopwatch,
-                               std::vector<std::string> &remarks,
-                               Vector                   &state)
+  MarchReport march_nested(const Scene<dim>       &scene,
+                           const Method           &method,
+                           const LoadControl<dim> &control,
+                           NestedReport           &report,
+                           Vector                 &state,
+                           const MarchState       &begin)
   {
-    SteppingOptions one_step = method.stepping;
-    one_step.kind            = Stepping::fixed;
-    one_step.load_steps      = 1;
-    one_step.minimum_step    = 1.;
-    const MarchReport report = march_quasi_static(
-        equilibrium, tangent_solver, method.newton, one_step, callbacks, stopwatch, state);
-    if (report.status != RunStatus::not_converged)
-      return report;
-
-    remarks.push_back(
-        "nested iteration: the interpolated state led to no equilibrium on the mesh of "
-        + std::to_string(equilibrium.discretisation().n_cells) + " cells; begun from rest");
-    state = 0.;
-    state.update_ghost_values();
-    MarchState begin;
-    begin.report.failed_steps      = report.failed_steps;
-    begin.report.newton_iterations = report.newton_iterations;
-    return march_quasi_static(equilibrium,
-                              tangent_solver,
-                              method.newton,
-                              method.stepping,
-                              callbacks,
-                              stopwatch,
-                              state,
-                              begin);
+    // A run that was interrupted is past its beginning.
+    if (method.nested_levels > 0 && begin.report.load_steps == 0
+        && begin_coarse(scene, method, control, report, state))
+      return march_from_guess(control, method.stepping, report.remarks, state);
+    return march_quasi_static(control, method.stepping, state, begin);
   }
 
 #define INSTANTIATE(dim)                                                                           \
   template std::unique_ptr<Mesh<dim>> make_mesh_for(const Scene<dim> &, const Method &, MPI_Comm); \
-  template bool                       begin_coarse(const Scene<dim> &,                             \
+  template MarchReport                march_nested(const Scene<dim> &,                             \
                                                    const Method &,                                 \
-                                                   const Equilibrium<dim> &,                       \
-                                                   const std::function<bool()> &,                  \
-                                                   Stopwatch &,                                    \
+                                                   const LoadControl<dim> &,                       \
                                                    NestedReport &,                                 \
-                                                   Vector &);                                      \
-  template MarchReport                march_from_guess(const Equilibrium<dim> &,                   \
-                                                       TangentSolver<dim> &,                       \
-                                                       const Method &,                             \
-                                                       const MarchCallbacks &,                     \
-                                                       Stopwatch &,                                \
-                                                       std::vector<std::string> &,                 \
-                                                       Vector &);
+                                                   Vector &,                                       \
+                                                   const MarchState &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -228,6 +228,8 @@ namespace isochor
       return probes.measure(state, reactions, load);
     };
 
+    NestedReport nested = earlier.nested;
+    result.dual         = earlier.dual;
     MarchCallbacks callbacks;
     callbacks.interrupted = [&]() { return interrupted(communicator); };
     std::optional<DualAscent<dim>> dual_ascent;
@@ -260,8 +262,10 @@ namespace isochor
       const auto scope = stopwatch.measure(Phase::output);
       if (checkpoints.is_due())
         checkpoints.save({march,
+                          nested,
                           vtu.written(),
                           joined(earlier.linear, tangent_solver.statistics()),
+                          result.dual,
                           seconds_of(stopwatch),
                           earlier.seconds_total + stopwatch.total(),
                           peak_megabytes(communicator)});
@@ -269,22 +273,9 @@ namespace isochor
 
     if (talks)
       print_step_header();
-    // A run that was interrupted is past its beginning.
-    NestedReport nested;
-    if (method.nested_levels > 0 && earlier.march.report.load_steps == 0
-        && begin_coarse(
-            scene, method, equilibrium, callbacks.interrupted, stopwatch, nested, state))
-      result.march = march_from_guess(
-          equilibrium, tangent_solver, method, callbacks, stopwatch, nested.remarks, state);
-    else
-      result.march = march_quasi_static(equilibrium,
-                                        tangent_solver,
-                                        method.newton,
-                                        method.stepping,
-                                        callbacks,
-                                        stopwatch,
-                                        state,
-                                        earlier.march);
+    const LoadControl<dim> control(
+        equilibrium, tangent_solver, method.newton, callbacks, stopwatch);
+    result.march = march_nested(scene, method, control, nested, state, earlier.march);
     result.coarse_newton_iterations = nested.newton_iterations;
     result.warnings.insert(result.warnings.end(), nested.remarks.begin(), nested.remarks.end());
 

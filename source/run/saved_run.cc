@@ -16,73 +16,116 @@
 
 namespace isochor
 {
-  // Checkpoints' format number must be counted up when these change.
-
-  template <typename Archive>
-  void serialize(Archive &archive, ResidualSize &size, unsigned int)
-  {
-    archive &size.force &size.constraint &size.rounding &size.min_jacobian &size.value;
-  }
-
-  template <typename Archive>
-  void serialize(Archive &archive, MarchReport &report, unsigned int)
-  {
-    archive &report.load &report.load_steps &report.failed_steps &report.newton_iterations &report
-        .size;
-  }
-
-  template <typename Archive>
-  void serialize(Archive &archive, LinearStatistics &counts, unsigned int)
-  {
-    bool      is_known = counts.pivot_excess.has_value();
-    long long excess   = counts.pivot_excess.value_or(0);
-    archive &counts.assemblies &counts.factorisations &counts.krylov_iterations &counts
-        .worst_residual &is_known &excess &counts.null_pivots &counts.flops &counts
-        .megabytes &counts.gave_up_single_precision;
-    counts.pivot_excess = is_known ? std::optional(excess) : std::nullopt;
-  }
-
-  /// All but vectors, whose layout the archive does not know.
-  template <typename Archive>
-  void serialize(Archive &archive, SavedRun &run, unsigned int)
-  {
-    archive &run.march.report &run.march.numbers &run.pictures &run.linear &run.seconds &run
-        .seconds_total &run.peak_megabytes;
-  }
-
   namespace
   {
-    /// The share of this rank.
-    std::string to_bytes(const SavedRun &run)
+    // What is saved, in this order. Checkpoints' format number must be counted up when it changes.
+    // Each function saves or loads, as the archive does.
+
+    template <typename Archive, typename... Values>
+    void archive_all(Archive &archive, Values &...values)
     {
-      std::vector<std::vector<double>> values;
-      for (const Vector &vector : run.march.vectors)
-        values.emplace_back(vector.begin(), vector.begin() + vector.locally_owned_size());
-      std::ostringstream stream;
-      {
-        boost::archive::binary_oarchive archive(stream, boost::archive::no_header);
-        archive << run << values;
-      }
-      return std::move(stream).str();
+      (void(archive & values), ...);
     }
 
-    SavedRun from_bytes(const std::string &bytes, const Vector &layout)
+    /// @p body archives the value, if there is one.
+    template <typename Archive, typename T, typename Body>
+    void archive_optional(Archive &archive, std::optional<T> &value, const Body &body)
     {
-      SavedRun                         run;
-      std::vector<std::vector<double>> values;
-      {
-        std::istringstream              stream(bytes);
-        boost::archive::binary_iarchive archive(stream, boost::archive::no_header);
-        archive >> run >> values;
-      }
-      for (const std::vector<double> &of_vector : values)
-        {
-          Vector &vector = run.march.vectors.emplace_back(layout.get_partitioner());
-          if (of_vector.size() != vector.locally_owned_size())
-            throw std::runtime_error("a saved state of another size");
-          std::copy(of_vector.begin(), of_vector.end(), vector.begin());
-        }
-      return run;
+      bool is_there = value.has_value();
+      archive_all(archive, is_there);
+      if (!is_there)
+        value.reset();
+      else
+        body(value ? *value : value.emplace());
+    }
+
+    /// The share of this rank. @p layout: of the vector to be loaded, unless it was empty.
+    template <typename Archive>
+    void archive_vector(Archive &archive, Vector &vector, const Vector &layout)
+    {
+      bool                is_there = vector.size() > 0;
+      std::vector<double> values(vector.begin(), vector.begin() + vector.locally_owned_size());
+      archive_all(archive, is_there, values);
+      if (!Archive::is_loading::value || !is_there)
+        return;
+      vector.reinit(layout.get_partitioner());
+      if (values.size() != vector.locally_owned_size())
+        throw std::runtime_error("a saved state of another size");
+      std::copy(values.begin(), values.end(), vector.begin());
+    }
+
+    template <typename Archive>
+    void archive_pivot_excess(Archive &archive, std::optional<long long> &excess)
+    {
+      archive_optional(archive, excess, [&](long long &value) { archive_all(archive, value); });
+    }
+
+    template <typename Archive>
+    void archive_report(Archive &archive, MarchReport &report)
+    {
+      ResidualSize &size = report.size;
+      archive_all(archive,
+                  report.load,
+                  report.load_steps,
+                  report.failed_steps,
+                  report.newton_iterations,
+                  size.force,
+                  size.constraint,
+                  size.rounding,
+                  size.min_jacobian,
+                  size.value);
+      archive_pivot_excess(archive, report.pivot_excess);
+    }
+
+    template <typename Archive>
+    void archive_march(Archive &archive, MarchState &march, const Vector &layout)
+    {
+      archive_report(archive, march.report);
+      archive_vector(archive, march.state, layout);
+      archive_all(archive, march.next_step);
+      archive_optional(archive, march.load_history, [&](MarchState::LoadHistory &history) {
+        archive_vector(archive, history.before, layout);
+        archive_all(archive, history.load_before, history.is_unstable);
+      });
+      archive_optional(archive, march.path_history, [&](MarchState::PathHistory &history) {
+        archive_vector(archive, history.tangent, layout);
+        archive_all(archive, history.tangent_load, history.displacement_scale);
+      });
+    }
+
+    template <typename Archive>
+    void archive_counts(Archive &archive, LinearStatistics &counts)
+    {
+      archive_all(archive,
+                  counts.assemblies,
+                  counts.factorisations,
+                  counts.krylov_iterations,
+                  counts.worst_residual,
+                  counts.null_pivots,
+                  counts.flops,
+                  counts.megabytes,
+                  counts.predicted_megabytes,
+                  counts.gave_up_single_precision,
+                  counts.note);
+      archive_pivot_excess(archive, counts.pivot_excess);
+    }
+
+    template <typename Archive>
+    void archive_run(Archive &archive, SavedRun &run, const Vector &layout)
+    {
+      archive_march(archive, run.march, layout);
+      archive_counts(archive, run.linear);
+      archive_counts(archive, run.nested.linear);
+      archive_optional(archive, run.dual, [&](DualReport &dual) {
+        archive_all(archive, dual.iterations, dual.to_one_percent, dual.to_hundredth_percent);
+      });
+      archive_all(archive,
+                  run.nested.newton_iterations,
+                  run.nested.remarks,
+                  run.pictures,
+                  run.seconds,
+                  run.seconds_total,
+                  run.peak_megabytes);
     }
 
     /// A number that changes with the cells of this rank, their vertices and their order.
@@ -113,7 +156,13 @@ namespace isochor
 
   LinearStatistics joined(const LinearStatistics &earlier, const LinearStatistics &later)
   {
-    LinearStatistics all  = later.factorisations > 0 ? later : earlier;
+    LinearStatistics all = later;
+    if (later.factorisations == 0)
+      {
+        all.pivot_excess = earlier.pivot_excess;
+        all.null_pivots  = earlier.null_pivots;
+        all.flops        = earlier.flops;
+      }
     all.assemblies        = earlier.assemblies + later.assemblies;
     all.factorisations    = earlier.factorisations + later.factorisations;
     all.krylov_iterations = earlier.krylov_iterations + later.krylov_iterations;
@@ -140,9 +189,14 @@ namespace isochor
            && dealii::Utilities::MPI::broadcast(communicator, since_last.total()) >= *interval;
   }
 
-  void RunCheckpoints::save(const SavedRun &run)
+  void RunCheckpoints::save(SavedRun run)
   {
-    files.save(run.march.report.load_steps, to_bytes(run));
+    std::ostringstream stream;
+    {
+      boost::archive::binary_oarchive archive(stream, boost::archive::no_header);
+      archive_run(archive, run, run.march.state);
+    }
+    files.save(run.march.report.load_steps, std::move(stream).str());
     since_last = Stopwatch();
   }
 
@@ -152,7 +206,11 @@ namespace isochor
     if (!saved)
       return {};
     SavedRun run;
-    collectively(communicator, [&]() { run = from_bytes(saved->contents, layout); });
+    collectively(communicator, [&]() {
+      std::istringstream              stream(saved->contents);
+      boost::archive::binary_iarchive archive(stream, boost::archive::no_header);
+      archive_run(archive, run, layout);
+    });
     remarks.push_back("continued from the state saved after load step "
                       + std::to_string(saved->number) + ", load factor "
                       + to_text(run.march.report.load));

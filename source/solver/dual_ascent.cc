@@ -152,10 +152,12 @@ namespace isochor
       size.gap             = largest <= 1e-13 * (state.linfty_norm() + largest) ? 0. : largest;
       return size;
     };
-    problem.correction
-        = [&](const Vector &state, const Vector &residual, const double tolerance, Vector &step) {
-            return tangent_solver.correction(state, load, residual, tolerance, step);
-          };
+    problem.correction =
+        [&](const Vector &state, const Vector &residual, const double tolerance, Vector &step) {
+          const auto correction = tangent_solver.correction(state, load, residual, tolerance, step);
+          has_system |= correction.succeeded;
+          return correction;
+        };
     problem.accepted
         = [&](unsigned int, const NewtonProblem::Size &, double) { return interrupted(); };
     return newton(problem, newton_options, at.state);
@@ -209,6 +211,18 @@ namespace isochor
                                 Ascent            &ascent)
   {
     Vector rhs(direction), solution(direction), product(direction);
+    if (!has_system)
+      {
+        // The first primal problem of this program took no iteration: so begins a run that goes on.
+        equilibrium.residual(at.state, load, rhs);
+        has_system = tangent_solver
+                         .correction(
+                             at.state, load, rhs, newton_options.largest_linear_tolerance, solution)
+                         .succeeded;
+        if (!has_system)
+          return false;
+        rhs = direction;
+      }
     if (is_augmented())
       {
         mass.vmult(product, direction);

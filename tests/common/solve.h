@@ -68,13 +68,10 @@ namespace isochor::testing
           return report;
         };
       }
-    solution.report = march_quasi_static(equilibrium,
-                                         tangent_solver,
-                                         newton,
-                                         {options.load_steps, options.minimum_step},
-                                         callbacks,
-                                         stopwatch,
-                                         solution.state);
+    const LoadControl<dim> control(equilibrium, tangent_solver, newton, callbacks, stopwatch);
+    const MarchState       rest;
+    solution.report = march_quasi_static(
+        control, {options.load_steps, options.minimum_step}, solution.state, rest);
     Vector residual = discretisation.make_vector();
     equilibrium.residual(solution.state, solution.report.load, residual, &solution.reactions);
     solution.statistics = tangent_solver.statistics();

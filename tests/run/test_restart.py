@@ -4,6 +4,7 @@ The reference is the same run without interruption."""
 import re
 import signal
 import unittest
+from pathlib import Path
 
 from isochor_case import CONVERGED, IsochorCase, read_csv
 
@@ -25,9 +26,19 @@ end
 ONE = SCENE.format(poisson_ratio=0.49, steps=20)
 STUDY = SCENE.format(poisson_ratio="{{0.3|0.45|0.49}}", steps=20)
 
+# At the full load at once, on a coarser mesh or on this one, Newton's method fails.
+NO_COARSE_START = ["Method/Nested levels=1", "Method/Maximum Newton iterations=5",
+                   "Scene/Traction=right: 0, -3000, 0"]
+EXAMPLES = Path(__file__).resolve().parents[2] / "prm"
+
 # What two runs of one program may spend differently, and what an interruption throws away: the
 # stress predicted for the next tangent and the kept factors.
 COSTS = re.compile("seconds|memory|factorisations|krylov|newton|folder")
+# Nothing is thrown away where every tangent is factored: all but these must be the same.
+CLOCKS = re.compile("seconds|peak memory|folder")
+DUAL_COSTS = re.compile(COSTS.pattern + "|dual")
+# Along a path, too, where the next step follows the last one's iterations.
+PATH_COSTS = re.compile(COSTS.pattern + "|steps")
 # Newton stops at 1e-10 of the forces; what is left is compared to a few digits less.
 DIGITS = 1e-7
 
@@ -36,11 +47,19 @@ def contents(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+def interpolated(points, x):
+    """The height at X of straight lines from (0, 0) through POINTS, which ascend."""
+    ends = [(0, 0), *points]
+    k = next((k for k in range(1, len(points)) if ends[k][0] >= x), len(points))
+    (x0, y0), (x1, y1) = ends[k - 1:k + 1]
+    return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+
+
 class Restart(IsochorCase):
-    def assert_same(self, row, wanted):
+    def assert_same(self, row, wanted, but=COSTS):
         self.assertEqual(list(row), list(wanted))
         for name in wanted:
-            if COSTS.search(name):
+            if but.search(name):
                 continue
             with self.subTest(column=name):
                 try:
@@ -55,7 +74,9 @@ class Restart(IsochorCase):
         self.kill(process)
 
     def checkpoints(self, folder=None):
-        return sorted((folder or self.out).glob("checkpoint_*"))
+        """But for one that was being written."""
+        return sorted(file for file in (folder or self.out).glob("checkpoint_*")
+                      if file.suffix[1:].isdigit())
 
     def test_killed(self):
         for ranks in (1, 2):
@@ -96,6 +117,102 @@ class Restart(IsochorCase):
         self.assert_same(self.check_files(CONVERGED), self.check_files(
             CONVERGED, self.folder / "whole"))
 
+    def test_counts(self):
+        """Of the part before the interruption and the part after it."""
+        direct = "Method/Linear solver=direct"
+        for case, settings, status in (
+                ("direct", [direct], CONVERGED),
+                ("matrix-free", ["Method/Linear solver=CG"], "converged"),
+                ("nested", [direct, *NO_COARSE_START], CONVERGED)):
+            with self.subTest(case=case):
+                arguments = [word for setting in settings for word in ("--set", setting)]
+                whole, self.out = self.folder / f"{case} whole", self.folder / case
+                told_whole = self.run_isochor(ONE, *arguments, out=whole)
+                wanted = self.check_files(status, whole)
+                self.kill_after(ONE, 5, *arguments)
+                told = self.run_isochor(ONE, "--restart", *arguments)
+                self.assert_same(self.check_files(status), wanted, CLOCKS)
+                for row, other in zip(read_csv(self.out / "steps.csv"),
+                                      read_csv(whole / "steps.csv"), strict=True):
+                    self.assert_same(row, other, CLOCKS)
+                if case == "nested":
+                    self.assertGreater(int(wanted["coarse newton iterations"]), 0)
+                    self.assertGreater(int(wanted["failed steps"]), 0)
+                    for words in (told_whole, told):
+                        self.assertIn("nested iteration: the interpolated state led to no", words)
+
+    def test_dual_ascent(self):
+        # Large steps first: most iterations are before the interruption.
+        text = ONE.replace("Traction        = right: 0, -300, 0", "Prescribed displacement = "
+                           "right: -, 0.1*(1 - (1 - load)^4), -")
+        dual = ("--set", "Method/Solver=dual ascent")
+        self.run_isochor(text, *dual, out=self.folder / "whole")
+        wanted = self.check_files(CONVERGED, self.folder / "whole")
+        self.kill_after(text, 5, *dual)
+        self.run_isochor(text, "--restart", *dual)
+        found, steps = self.check_files(CONVERGED), read_csv(self.out / "steps.csv")
+        self.assert_same(found, wanted, DUAL_COSTS)
+        for name in ("dual iterations", "dual iterations to 1 %", "dual iterations to 0.01 %"):
+            counts = [int(step[name]) for step in steps]
+            self.assertEqual(int(found[name]), max(counts), name)
+            if name != "dual iterations to 1 %": # 1 in all steps
+                self.assertGreater(max(counts[:5]), max(counts[6:]), name)
+        self.assertEqual(int(found["newton iterations"]),
+                         sum(int(step["newton iterations"]) for step in steps))
+
+    def test_path(self):
+        """Killed twice on the way down between two limit points, and followed on in that direction."""
+        text = (EXAMPLES / "snap_through.prm").read_text()
+        short_steps = ("--set", "Method/Target Newton iterations=2")
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                whole, self.out = self.folder / f"path_{ranks}", self.folder / f"killed_path_{ranks}"
+                self.run_isochor(text, *short_steps, out=whole, ranks=ranks)
+                wanted, path = self.check_files(CONVERGED, whole), read_csv(whole / "steps.csv")
+                loads = [float(step["load factor"]) for step in path]
+                down = [k for k in range(1, len(loads)) if loads[k] < loads[k - 1]]
+                self.assertGreater(len(down), 8)
+                self.kill_after(text, down[1] + 1, *short_steps, ranks=ranks)
+                self.kill_after(text, down[3] + 1, *short_steps, "--restart", ranks=ranks)
+                self.assertLess(len(read_csv(self.out / "steps.csv")), down[-1])
+                told = self.run_isochor(text, *short_steps, "--restart", ranks=ranks)
+                self.assertRegex(told, r"continued from the state saved after load step \d+")
+                self.assert_same(self.check_files(CONVERGED), wanted, PATH_COSTS)
+                found = read_csv(self.out / "steps.csv")
+                self.assertEqual([int(step["step"]) for step in found],
+                                 list(range(1, len(found) + 1)))
+                # The displacement grows all along: no step goes back, nor off the path.
+                here, there = ([(-float(step["middle [m]"]), float(step["load factor"]))
+                                for step in steps] for steps in (found, path))
+                self.assertEqual(here, sorted(here))
+                for displacement, load in here:
+                    self.assertAlmostEqual(interpolated(there, displacement), load, delta=3e-3)
+
+    def test_other_stepping(self):
+        """What one way of stepping has left, the other does not take for its own."""
+        text = (EXAMPLES / "snap_through.prm").read_text()
+        self.run_isochor(text, out=self.folder / "whole")
+        wanted = self.check_files(CONVERGED, self.folder / "whole")
+        for first, then in (("fixed", "arc length"), ("arc length", "fixed")):
+            with self.subTest(first=first):
+                self.out = self.folder / first
+                steps = ("--set", "Method/Load steps=40", "--set", "Method/Target Newton iterations=2")
+                self.kill_after(text, 4, *steps, "--set", f"Method/Stepping={first}")
+                self.run_isochor(text, *steps, "--restart", "--set", f"Method/Stepping={then}")
+                self.assert_same(self.check_files(CONVERGED), wanted, PATH_COSTS)
+
+    def test_other_version(self):
+        self.kill_after(ONE, 3)
+        for file in self.checkpoints():
+            line, rest = file.read_bytes().split(b"\n", 1)
+            self.assertRegex(line, rb"^Isochor checkpoint \d+$")
+            file.write_bytes(b"Isochor checkpoint 1\n" + rest)
+        before = contents(self.out)
+        told = self.run_isochor(ONE, "--restart", code=1)
+        self.assertRegex(told, "was saved by another version of Isochor, as 'Isochor checkpoint 1'; "
+                               rf"allowed: '{line.decode()}', or .* --overwrite")
+        self.assertEqual(contents(self.out), before)
+
     def test_damaged(self):
         self.run_isochor(ONE, out=self.folder / "whole")
         self.kill_after(ONE, 6)
@@ -110,8 +227,10 @@ class Restart(IsochorCase):
 
     def test_one_rank_missing(self):
         self.kill_after(ONE, 6, ranks=2)
-        checkpoints = self.checkpoints()
-        checkpoints[-1].unlink()
+        # The last of the pieces may be one that was not finished.
+        names = {file.name for file in self.checkpoints()}
+        of_rank_1 = max(name for name in names if name.endswith(".1") and name[:-1] + "0" in names)
+        (self.out / of_rank_1).unlink()
         told = self.run_isochor(ONE, "--restart", ranks=2)
         self.assertIn("is damaged or not whole", told)
         self.check_files(CONVERGED)

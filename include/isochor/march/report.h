@@ -58,14 +58,29 @@ namespace isochor
     std::string status_text() const;
   };
 
-  /// Between two load steps: what the march needs to go on from there.
+  /// Between two load steps: what the march needs to go on from there. Run saves it.
   struct MarchState
   {
-    MarchReport report; ///< so far
-    /// The last converged state, and what else the way of stepping needs. None: the march begins at
-    /// the state that it is given.
-    std::vector<Vector> vectors;
-    std::vector<double> numbers; ///< likewise: the next step first
+    /// What stepping under load control also needs.
+    struct LoadHistory
+    {
+      Vector before; ///< the converged state before the last
+      double load_before = 0;
+      bool   is_unstable = false; ///< the last equilibrium
+    };
+    /// What following a path also needs: its last tangent, and the unit of displacements.
+    struct PathHistory
+    {
+      Vector tangent;
+      double tangent_load       = 0; ///< its part in the load factor
+      double displacement_scale = 1; ///< U of march_along_path()
+    };
+
+    MarchReport                report;        ///< so far
+    Vector                     state;         ///< last converged; empty: as the march is given it
+    double                     next_step = 0; ///< of the load factor or of arc length
+    std::optional<LoadHistory> load_history;  ///< none: it was not stepped so
+    std::optional<PathHistory> path_history;  ///< likewise
   };
 
   struct MarchCallbacks

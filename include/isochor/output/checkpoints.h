@@ -38,7 +38,7 @@ namespace isochor
 
     /// The newest state that is whole; none if there is none. @p complaints gets a sentence for
     /// each newer one that is not. Throws UserError if it belongs to something else, with the first
-    /// difference. Collective.
+    /// difference, or is in the format of another version. Collective.
     std::optional<Saved> load(std::vector<std::string> &complaints);
 
     /// Remove all states: the run has come to its end. Collective.
@@ -49,7 +49,8 @@ namespace isochor
 
   private:
     std::filesystem::path piece(unsigned int number, unsigned int of_rank) const;
-    /// Identity and contents; none if the piece is missing or damaged.
+    /// Identity and contents; none if the piece is missing or damaged. Throws UserError if its format
+    /// is that of another version.
     std::optional<std::pair<Identity, std::string>> read_piece(unsigned int number) const;
     void                                            check(const Identity &theirs) const;
 

@@ -3,6 +3,7 @@
 // Nested iteration: the equilibrium on a coarse mesh, interpolated, is where Newton's method begins
 // on the fine one, at the full load. Coarse steps cost little, and few are left on the fine mesh.
 
+#include <isochor/march/load_control.h>
 #include <isochor/mesh/mesh.h>
 #include <isochor/run/run.h>
 
@@ -23,26 +24,14 @@ namespace isochor
     std::vector<std::string> remarks;               ///< what did not work
   };
 
-  /// Set @p state to the equilibrium at the full load on a mesh of twice the edge length, itself
-  /// begun on coarser ones, with the prescribed displacements of @p fine. False, and a remark, if
-  /// the coarse mesh has none. Seconds go to @p stopwatch. Collective.
+  /// March to the full load. With @p method.nested_levels it begins with the equilibrium on a mesh of
+  /// twice the edge length, itself begun on coarser ones, and takes one step; where that does not
+  /// work, and if @p begin is past the first step, it is march_quasi_static(). Collective.
   template <int dim>
-  bool begin_coarse(const Scene<dim>            &scene,
-                    const Method                &method,
-                    const Equilibrium<dim>      &fine,
-                    const std::function<bool()> &interrupted,
-                    Stopwatch                   &stopwatch,
-                    NestedReport                &report,
-                    Vector                      &state);
-
-  /// March in one step from @p state, which is near the equilibrium at the full load; if that fails,
-  /// from rest in the steps that @p method asks for. Collective.
-  template <int dim>
-  MarchReport march_from_guess(const Equilibrium<dim>   &equilibrium,
-                               TangentSolver<dim>       &tangent_solver,
-                               const Method             &method,
-                               const MarchCallbacks     &callbacks,
-                               Stopwatch                &stopwatch,
-                               std::vector<std::string> &remarks,
-                               Vector                   &state);
+  MarchReport march_nested(const Scene<dim>       &scene,
+                           const Method           &method,
+                           const LoadControl<dim> &control,
+                           NestedReport           &report,
+                           Vector                 &state,
+                           const MarchState       &begin);
 } // namespace isochor

@@ -3,7 +3,7 @@
 // What a run needs to go on after an interruption, and the bytes it is saved as.
 
 #include <isochor/output/checkpoints.h>
-#include <isochor/run/run.h>
+#include <isochor/run/nested.h>
 #include <isochor/space/discretisation.h>
 
 namespace isochor
@@ -11,8 +11,10 @@ namespace isochor
   struct SavedRun
   {
     MarchState                                       march;
-    std::vector<std::pair<double, std::string>>      pictures; ///< VtuSeries::written()
-    LinearStatistics                                 linear;
+    NestedReport                                     nested;
+    std::vector<std::pair<double, std::string>>      pictures;  ///< VtuSeries::written()
+    LinearStatistics                                 linear;    ///< on the mesh itself
+    std::optional<DualReport>                        dual;      ///< the most of any load step
     std::array<double, std::size_t(Phase::n_phases)> seconds{}; ///< of this rank
     double                                           seconds_total  = 0;
     double                                           peak_megabytes = 0;
@@ -33,7 +35,7 @@ namespace isochor
     bool is_due() const;
 
     /// What differs from rank to rank is the share of this one.
-    void save(const SavedRun &run);
+    void save(SavedRun run);
 
     /// The last saved state that is whole, or an empty one; @p remarks gets what the user should
     /// know of it. @p layout: any vector of the state's layout. Throws UserError as

@@ -129,6 +129,7 @@ namespace isochor
     double                  volume       = 0; ///< m^dim
     double                  volume_norm  = 0; ///< |int N_p|
     DualDirections          directions;
+    bool                    has_system = false; ///< has the tangent solver linearised?
     DualReport              counts;
   };
 } // namespace isochor
