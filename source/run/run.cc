@@ -6,6 +6,7 @@
 #include <isochor/run/progress.h>
 #include <isochor/run/result_rows.h>
 #include <isochor/run/saved_run.h>
+#include <isochor/run/turns.h>
 #include <isochor/run/warnings.h>
 #include <isochor/space/interpolation.h>
 
@@ -65,31 +66,6 @@ namespace isochor
                         + "); allowed: a displacement that keeps every J above 0, the supports "
                           "being where they are before any load");
       return state;
-    }
-
-    /// Throws UserError if the supports turn by more than half a turn in the first load step: that
-    /// would be taken for the shorter way round, and a full turn for none.
-    template <int dim>
-    void check_turns(const Equilibrium<dim> &equilibrium, const unsigned int load_steps)
-    {
-      const Vector rest = equilibrium.discretisation().make_vector();
-      Vector       displacement(rest);
-      const auto   size = [&](const double load) {
-        equilibrium.prescribed().gap(rest, load, displacement);
-        return displacement.l2_norm();
-      };
-      // Chords of a circle: at half a turn, that of half the way is 1 / sqrt(2) of the whole.
-      const auto is_followed
-          = [&](const double step) { return size(0.5 * step) <= 0.7072 * size(step); };
-      if (size(0.5) == 0. || is_followed(1. / load_steps))
-        return;
-      unsigned int enough = load_steps + 1;
-      while (enough < 1000 && !is_followed(1. / enough))
-        ++enough;
-      throw UserError("Method/Load steps: within the first of " + std::to_string(load_steps)
-                      + " the prescribed displacements turn by more than half a turn, or come back "
-                        "to where they were; allowed for this scene: at least "
-                      + std::to_string(enough));
     }
 
     /// Of this rank, by phase.

@@ -125,6 +125,24 @@ class Failures(IsochorCase):
                 row, _, _ = self.end(scene(loads=loads, steps=12, **bar))
                 self.assertGreater(float(row["load factor"]), 0.25)
 
+    def test_later_turn(self):
+        bar = dict(mesh="box(1, 0.2, 0.2)", cells="8, 2, 2", fixed="left", poisson_ratio=0.45)
+        # 22 degrees in the first half, 338 in the second; of six equal steps, the last has 186.
+        angle = "2*pi*load^4"
+        turn = (f"set Prescribed displacement = right: 0, (cos({angle}) - 1)*(y - 0.1) - "
+                f"sin({angle})*(z - 0.1), sin({angle})*(y - 0.1) + (cos({angle}) - 1)*(z - 0.1)")
+        for ranks in (1, 2):
+            told = self.run_isochor(scene(loads=turn, steps=2, **bar), ranks=ranks, code=1)
+            self.assertIn("in one of 2, from load factor 0.5 on, the prescribed displacements turn by "
+                          "more than half a turn; allowed for this scene: at least 7", told)
+        # To and fro is no turn, wherever steps begin and end.
+        for steps in (2, 3, 10):
+            with self.subTest(steps=steps):
+                self.out = self.folder / f"to_and_fro_{steps}"
+                loads = "set Prescribed displacement = right: 0.1*sin(2*pi*load), 0, 0"
+                _, code, _ = self.end(scene(loads=loads, steps=steps, **bar))
+                self.assertEqual(code, 0)
+
     def test_flattened_start(self):
         for start in ("0, -y, 0", "0, -1.5*y, 0"):
             told = self.run_isochor(scene(
