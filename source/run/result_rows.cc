@@ -128,8 +128,9 @@ namespace isochor
         add(probe_columns[k].name + " reference uncertainty",
             valid ? optional_number(errors.uncertainty[k]) : "");
       }
-    add("volume ratio", csv_number(result.volume_ratio));
-    add("min J", csv_number(result.march.size.min_jacobian));
+    const bool has_state = result.cells > 0; // a refused run has none
+    add("volume ratio", has_state ? csv_number(result.volume_ratio) : "");
+    add("min J", has_state ? csv_number(result.march.size.min_jacobian) : "");
     add("pressure oscillation", optional_number(result.oscillation));
     for (const auto &[name, test] : {std::pair("at rest", &result.inf_sup_at_rest),
                                      std::pair("at the end", &result.inf_sup_at_end)})

@@ -258,6 +258,8 @@ namespace isochor
     {
       const auto scope    = stopwatch.measure(Phase::output);
       result.probe_values = measure(result.march.load);
+      if (result.march.load_steps == 0) // the state that is left is the one it began with
+        result.march.size = equilibrium.residual(state, result.march.load, scratch);
       // The last converged state is on disk whatever happened.
       if (settings.vtu == VtuOutput::final_state
           || (settings.vtu == VtuOutput::every_step && result.march.load_steps == 0))

@@ -3,7 +3,7 @@
 import signal
 import unittest
 
-from isochor_case import CONVERGED, IsochorCase
+from isochor_case import CONVERGED, IsochorCase, read_csv
 
 SCENE = """
 subsection Scene
@@ -33,6 +33,27 @@ class Endings(IsochorCase):
                 row = self.check_files("not converged")
                 self.assertIn("step below minimum", row["reason"])
                 self.assertEqual(row["tip [m]"], "")
+                # What is left is the state at rest.
+                self.assertEqual((row["load steps"], float(row["min J"])), ("0", 1))
+                self.assertEqual(float(row["volume ratio"]), 1)
+
+    def test_initial_state_is_left(self):
+        text = SCENE.format(cells="6, 1, 1", traction="-1e9, 0, 0", steps=1).replace(
+            "set Fixed  ", "set Initial displacement = -0.25*x, 0, 0\n set Fixed  ")
+        self.run_isochor(text, code=2)
+        row = self.check_files("not converged")
+        self.assertEqual(row["load steps"], "0")
+        self.assertAlmostEqual(float(row["min J"]), 0.75)
+
+    def test_refused_run_has_no_state(self):
+        # Dual ascent needs pressures.
+        text = SCENE.format(cells="6, 1, 1", traction="0, -1, 0", steps=1) + (
+            "subsection Method\n set Element = {{P1|P1-P1}}\n set Solver = dual ascent\nend\n")
+        self.run_isochor(text, code=2)
+        refused, solved = read_csv(self.out / "results.csv")
+        self.assertEqual((refused["status"], solved["status"]), ("refused", CONVERGED))
+        self.assertEqual((refused["min J"], refused["volume ratio"]), ("", ""))
+        self.assertGreater(float(solved["min J"]), 0.9)
 
     def interrupt(self, ranks, code, **keywords):
         process = self.start(SLOW, ranks=ranks, **keywords)
