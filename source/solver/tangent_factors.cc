@@ -191,11 +191,18 @@ namespace isochor
     are_kept = factor_or_use_double(state, true).succeeded && backend->is_preconditioner();
     if (backend->solver() == LinearSolver::kept && counts.pivot_excess != 0)
       {
-        auto single = std::move(backend);
+        // Those in double precision take at most twice as much; where both together are too much,
+        // they come in the place of the others.
+        std::unique_ptr<LinearBackend<dim>> single;
+        if (3. * counts.megabytes <= memory_limit)
+          single = std::move(backend);
         if (use(LinearSolver::direct).empty())
           factor(state);
-        backend  = std::move(single);
-        are_kept = true;
+        are_kept = single != nullptr;
+        if (single)
+          backend = std::move(single);
+        else
+          use(LinearSolver::kept);
       }
     are_kept = are_kept && !change_tangent;
     is_fresh = false;
