@@ -133,8 +133,8 @@ class Failures(IsochorCase):
                 f"sin({angle})*(z - 0.1), sin({angle})*(y - 0.1) + (cos({angle}) - 1)*(z - 0.1)")
         for ranks in (1, 2):
             told = self.run_isochor(scene(loads=turn, steps=2, **bar), ranks=ranks, code=1)
-            self.assertIn("in one of 2, from load factor 0.5 on, the prescribed displacements turn by "
-                          "more than half a turn; allowed for this scene: at least 7", told)
+            self.assertIn("in one of 2, from load factor 0.5 on, the prescribed displacements turn "
+                          "by more than half a turn; allowed for this scene: at least 7", told)
         # To and fro is no turn, wherever steps begin and end.
         for steps in (2, 3, 10):
             with self.subTest(steps=steps):

@@ -161,12 +161,12 @@ class Restart(IsochorCase):
                          sum(int(step["newton iterations"]) for step in steps))
 
     def test_path(self):
-        """Killed twice on the way down between two limit points, and followed on in that direction."""
+        """Killed twice on the way down between two limit points, and followed on that way."""
         text = (EXAMPLES / "snap_through.prm").read_text()
         short_steps = ("--set", "Method/Target Newton iterations=2")
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
-                whole, self.out = self.folder / f"path_{ranks}", self.folder / f"killed_path_{ranks}"
+                whole, self.out = self.folder / f"whole_{ranks}", self.folder / f"killed_{ranks}"
                 self.run_isochor(text, *short_steps, out=whole, ranks=ranks)
                 wanted, path = self.check_files(CONVERGED, whole), read_csv(whole / "steps.csv")
                 loads = [float(step["load factor"]) for step in path]
@@ -196,7 +196,8 @@ class Restart(IsochorCase):
         for first, then in (("fixed", "arc length"), ("arc length", "fixed")):
             with self.subTest(first=first):
                 self.out = self.folder / first
-                steps = ("--set", "Method/Load steps=40", "--set", "Method/Target Newton iterations=2")
+                steps = ("--set", "Method/Load steps=40",
+                         "--set", "Method/Target Newton iterations=2")
                 self.kill_after(text, 4, *steps, "--set", f"Method/Stepping={first}")
                 self.run_isochor(text, *steps, "--restart", "--set", f"Method/Stepping={then}")
                 self.assert_same(self.check_files(CONVERGED), wanted, PATH_COSTS)
@@ -209,8 +210,8 @@ class Restart(IsochorCase):
             file.write_bytes(b"Isochor checkpoint 1\n" + rest)
         before = contents(self.out)
         told = self.run_isochor(ONE, "--restart", code=1)
-        self.assertRegex(told, "was saved by another version of Isochor, as 'Isochor checkpoint 1'; "
-                               rf"allowed: '{line.decode()}', or .* --overwrite")
+        self.assertRegex(told, "was saved by another version of Isochor, as 'Isochor checkpoint 1';"
+                               rf" allowed: '{line.decode()}', or .* --overwrite")
         self.assertEqual(contents(self.out), before)
 
     def test_damaged(self):
