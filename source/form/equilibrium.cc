@@ -53,8 +53,10 @@ namespace isochor
     moduli_                  = isochor::moduli(material);
     auto elasticity          = std::make_unique<Elasticity<dim>>(
         discretisation, material.energy, material.volumetric_strain, moduli_, compliance);
-    is_linear_ = elasticity->is_linear() && scene.pressures.empty();
-    internal   = std::move(elasticity);
+    is_linear_  = elasticity->is_linear() && scene.pressures.empty();
+    is_minimum_ = discretisation.n_pressures == 0 && scene.pressures.empty()
+                  && make_distortional_energy(material.energy, moduli_)->is_symmetric();
+    internal = std::move(elasticity);
     if (scene.gravity.norm() > 0)
       loads.push_back(
           std::make_unique<BodyForce<dim>>(discretisation, material.density, scene.gravity));

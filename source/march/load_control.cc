@@ -53,6 +53,8 @@ namespace isochor
     size.merit      = std::hypot(all.force, all.constraint);
     size.target     = std::max(newton_options.tolerance, all.rounding);
     size.admissible = equilibrium.is_linear() || all.min_jacobian > 0.;
+    if (equilibrium.is_minimum())
+      size.energy = all.value;
 
     Vector       gap(x.get_partitioner());
     const double largest = equilibrium.prescribed().gap(x, load, gap);
@@ -76,6 +78,10 @@ namespace isochor
     problem.correction
         = [&](const Vector &at, const Vector &residual, const double tolerance, Vector &step) {
             return tangent_solver.correction(at, load, residual, tolerance, step);
+          };
+    problem.fallback
+        = [&](const Vector &at, const Vector &residual, const double tolerance, Vector &step) {
+            return tangent_solver.filtered_correction(at, load, residual, tolerance, step);
           };
     problem.accepted = [&](unsigned int, const NewtonProblem::Size &, double) {
       return callbacks.interrupted();

@@ -125,8 +125,12 @@ namespace isochor
       assemble(state, load, stress, filter, sides);
     };
     state.update_ghost_values();
-    const auto stress = predicted_stress(state);
-    linearise(stress.get(), CurvatureFilter::none);
+    const auto stress = filters_now ? nullptr : predicted_stress(state);
+    const auto excess = counts.pivot_excess;
+    is_filtered       = filters_now;
+    if (filters_now)
+      are_kept = false;
+    linearise(stress.get(), filters_now ? filter : CurvatureFilter::none);
 
     LinearSolve outcome;
     const auto  solve_all = [&]() {
@@ -141,8 +145,8 @@ namespace isochor
         const auto scope = stopwatch.measure(Phase::solve);
         rotations.update(state);
       }
-    bool is_solved = are_kept && solve_all(), is_filtered = false;
-    is_fresh = !is_solved;
+    bool is_solved = are_kept && solve_all();
+    is_fresh       = !is_solved && !filters_now;
     if (!is_solved)
       {
         are_kept = false;
@@ -154,8 +158,10 @@ namespace isochor
             linearise(nullptr, CurvatureFilter::none);
             factorisation = factor_or_use_double(state);
           }
-        if (filter != CurvatureFilter::none && filtered_left > 0
-            && counts.pivot_excess.value_or(0) > 0)
+        if (filters_now)
+          counts.pivot_excess = excess;
+        else if (filter != CurvatureFilter::none && filtered_left > 0
+                 && counts.pivot_excess.value_or(0) > 0)
           {
             is_filtered = true;
             --filtered_left;
@@ -198,7 +204,23 @@ namespace isochor
       scaling.apply(*rate);
     linearised_at = state;
     last_step     = step;
-    return {true, ""};
+    return {true, "", is_filtered};
+  }
+
+  template <int dim>
+  NewtonProblem::Correction TangentSolver<dim>::filtered_correction(const Vector &state,
+                                                                    const double  load,
+                                                                    const Vector &residual,
+                                                                    const double  tolerance,
+                                                                    Vector       &step)
+  {
+    if (matrix_free || is_filtered || filter == CurvatureFilter::none || filtered_left == 0)
+      return {false, "no filtered tangent"};
+    --filtered_left;
+    filters_now        = true;
+    const auto outcome = correction(state, load, residual, tolerance, step);
+    filters_now        = false;
+    return outcome;
   }
 
   template <int dim>

@@ -71,6 +71,12 @@ namespace isochor
     {
       return is_linear_;
     }
+    /// Is a stable equilibrium a minimum of ResidualSize::value? Not with pressures as unknowns, which
+    /// make it a saddle, nor without a potential.
+    bool is_minimum() const
+    {
+      return is_minimum_;
+    }
     const Moduli &moduli() const
     {
       return moduli_;
@@ -105,6 +111,7 @@ namespace isochor
     std::vector<std::unique_ptr<Term>> loads;
     Moduli                             moduli_{};
     bool                               is_linear_      = false;
+    bool                               is_minimum_     = false;
     double                             volume_scale    = 0; ///< |int N_p|
     double                             stiffness_scale = 0; ///< |diagonal of the tangent at rest|
     Vector                             diagonal_;

@@ -7,11 +7,15 @@
 // descent doubles the iterations. So the search is a watchdog (Chamberlain, Powell, Lemarechal and
 // Pedersen 1982): full steps may raise the residual, but when a few have passed without a
 // new smallest one, the iteration goes back to that and backtracks until the residual falls.
+//
+// Where no length of a step will do, the problem may offer another one, and a step that descends may
+// be judged by the energy, which is not stiff modes' alone.
 
 #include <isochor/core/names.h>
 #include <isochor/core/types.h>
 
 #include <functional>
+#include <limits>
 
 namespace dealii
 {
@@ -45,12 +49,15 @@ namespace isochor
       bool   admissible = true; ///< false: outside the domain (an inverted cell)
       /// How far prescribed values still are from where they must be; 0 once they are there.
       double gap = 0;
+      /// What a stable solution minimises; NaN: there is no such thing.
+      double energy = std::numeric_limits<double>::quiet_NaN();
     };
 
     struct Correction
     {
       bool        succeeded = false;
-      std::string failure; ///< why not
+      std::string failure;   ///< why not
+      bool descends = false; ///< does a short step lead to a smaller energy, if there is one?
     };
 
     /// Residual at @p x.
@@ -61,6 +68,9 @@ namespace isochor
     std::function<
         Correction(const Vector &x, const Vector &residual, double tolerance, Vector &step)>
         correction;
+
+    /// Another step from the same state, if no length of correction()'s would do. May be empty.
+    decltype(correction) fallback;
 
     /// Called after every accepted iterate; true asks to stop (an interrupt).
     std::function<bool(unsigned int iteration, const Size &size, double step_length)> accepted;
@@ -80,6 +90,7 @@ namespace isochor
   {
     NewtonOutcome outcome    = NewtonOutcome::converged;
     unsigned int  iterations = 0; ///< = linear systems solved
+    unsigned int  fallbacks  = 0; ///< iterations that NewtonProblem::fallback has helped
     unsigned int  halvings   = 0;
     double        merit      = 0; ///< last
     std::string   reason;         ///< in words, empty if converged

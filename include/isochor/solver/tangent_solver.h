@@ -69,6 +69,14 @@ namespace isochor
                                          Vector       &step,
                                          Vector       *rate = nullptr);
 
+    /// The same where the line search cannot use that step: with new factors of the filtered tangent.
+    /// Refused where the last correction was filtered already, or filter_unstable() allows none.
+    NewtonProblem::Correction filtered_correction(const Vector &state,
+                                                  double        load,
+                                                  const Vector &residual,
+                                                  double        tolerance,
+                                                  Vector       &step);
+
     /// Factor the tangent at @p state for its negative pivots: statistics().pivot_excess, in
     /// double precision wherever single precision shows anything but a stable equilibrium. Not
     /// if it was last factored for a stable state that this one can hardly be told from.
@@ -141,6 +149,8 @@ namespace isochor
     bool            is_fresh      = false; ///< the last correction has factored its own tangent
     CurvatureFilter filter        = CurvatureFilter::none;
     unsigned int    filtered_left = 0;
+    bool            is_filtered   = false;    ///< the last correction is
+    bool            filters_now   = false;    ///< the next correction is, whatever the pivots
     Vector          linearised_at, last_step; ///< of the last correction; empty before
     std::function<void(SparseMatrix &)>    change_tangent;
     std::unique_ptr<MatrixFreeSolver<dim>> matrix_free; ///< null: factors
