@@ -1,4 +1,5 @@
 #include <isochor/march/arc_length.h>
+#include <isochor/march/limit_point.h>
 #include <isochor/march/quasi_static.h>
 
 #include <cmath>
@@ -45,6 +46,17 @@ namespace isochor
         // Written so that NaN stays.
         if (there.admissible && (there.merit < here.merit || (here.gap > 0. && there.merit < 1.)))
           trial.swap(guess);
+      }
+
+      /// Empty unless the path through the last state and @p last goes to a limit point, not far from
+      /// the load factor @p failed.
+      std::string describe_limit(const PathPoint &last, const double failed) const
+      {
+        // The dual ascent's tangent is another one.
+        if (before.size() == 0 || control.callbacks.solve)
+          return "";
+        const auto limit = limit_point_ahead(control, {before, load_before}, last, failed);
+        return limit ? describe_limit_point(*limit) : "";
       }
 
       Vector before;
@@ -136,6 +148,7 @@ namespace isochor
                   report.reason
                       = describe_failure(newton_report, size, statistics)
                         + describe_minimum(report.load, load - report.load, stepping.minimum_step);
+                  report.reason += extrapolation.describe_limit({state, report.load}, load);
                   control.finish(state, report);
                   return report;
                 }
