@@ -1,6 +1,7 @@
 #include <isochor/material/advice.h>
 #include <isochor/run/warnings.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -82,6 +83,26 @@ namespace isochor
                 stable_elements(element.kind));
     }
 
+    void say_crushed(Sentences &out, const RunResult &result, const Material &material)
+    {
+      // A cell may well lose some volume where pressures are weak, or all of them where the body does.
+      constexpr double acceptable   = 0.5;
+      const Moduli     m            = moduli(material);
+      const double     min_jacobian = result.march.size.min_jacobian;
+      if (result.march.load_steps == 0 || m.kappa <= stiff_volume * m.mu
+          || make_distortional_energy(material.energy, m)->is_linear()
+          || min_jacobian >= acceptable * std::min(1., result.volume_ratio))
+        return;
+      out.add("cells are nearly crushed: J falls to ",
+              min_jacobian,
+              ", where a Poisson ratio of ",
+              material.poisson_ratio,
+              " keeps it near 1, and in the mean it is ",
+              result.volume_ratio,
+              "; the mesh is too coarse there for so large a deformation, or the load too big: do "
+              "not trust stresses and pressures near those cells");
+    }
+
     void say_locking(Sentences &out, const Element &element, const Material &material)
     {
       const bool constant_strain = element.kind == CellKind::simplex
@@ -115,6 +136,7 @@ namespace isochor
     say_locking(out, element, material);
     say_stability(out, result, element, material.poisson_ratio);
     say_pressure(out, result, element);
+    say_crushed(out, result, material);
     // Taylor-Hood needs an interior vertex in every cell.
     const bool taylor_hood = element.pressure && element.pressure->family == Family::lagrange
                              && element.displacement.family == Family::lagrange
