@@ -202,8 +202,7 @@ namespace isochor
             return finished(NewtonOutcome::linear, correction.failure);
 
           Search outcome = find_step(correction);
-          if (outcome != Search::found && !correction.descends && problem.fallback
-              && report.iterations < limit)
+          if (outcome != Search::found && problem.fallback && report.iterations < limit)
             {
               correction = problem.fallback(here.x, here.residual, forcing, step);
               if (correction.succeeded)

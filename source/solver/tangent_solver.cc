@@ -125,12 +125,12 @@ namespace isochor
       assemble(state, load, stress, filter, sides);
     };
     state.update_ghost_values();
-    const auto stress = filters_now ? nullptr : predicted_stress(state);
-    const auto excess = counts.pivot_excess;
-    is_filtered       = filters_now;
-    if (filters_now)
-      are_kept = false;
-    linearise(stress.get(), filters_now ? filter : CurvatureFilter::none);
+    const bool is_fallback   = fallback != CurvatureFilter::none;
+    const auto stress        = is_fallback ? nullptr : predicted_stress(state);
+    const auto excess_before = counts.pivot_excess;
+    filtered_by              = fallback;
+    are_kept                 = are_kept && !is_fallback;
+    linearise(stress.get(), fallback);
 
     LinearSolve outcome;
     const auto  solve_all = [&]() {
@@ -146,7 +146,7 @@ namespace isochor
         rotations.update(state);
       }
     bool is_solved = are_kept && solve_all();
-    is_fresh       = !is_solved && !filters_now;
+    is_fresh       = !is_solved && !is_fallback;
     if (!is_solved)
       {
         are_kept = false;
@@ -158,12 +158,12 @@ namespace isochor
             linearise(nullptr, CurvatureFilter::none);
             factorisation = factor_or_use_double(state);
           }
-        if (filters_now)
-          counts.pivot_excess = excess;
+        if (is_fallback)
+          counts.pivot_excess = excess_before;
         else if (filter != CurvatureFilter::none && filtered_left > 0
                  && counts.pivot_excess.value_or(0) > 0)
           {
-            is_filtered = true;
+            filtered_by = filter;
             --filtered_left;
             const auto excess = counts.pivot_excess;
             linearise(nullptr, filter);
@@ -195,7 +195,7 @@ namespace isochor
       }
     if (!are_kept)
       fresh_effort = effort(outcome);
-    are_kept = is_solved && !is_filtered && backend->is_preconditioner()
+    are_kept = is_solved && filtered_by == CurvatureFilter::none && backend->is_preconditioner()
                && outcome.krylov_iterations <= max_iterations_when_kept(tolerance);
     if (!is_solved)
       return {false, complaint(outcome)};
@@ -204,7 +204,7 @@ namespace isochor
       scaling.apply(*rate);
     linearised_at = state;
     last_step     = step;
-    return {true, "", is_filtered};
+    return {true, "", filtered_by != CurvatureFilter::none};
   }
 
   template <int dim>
@@ -214,12 +214,13 @@ namespace isochor
                                                                     const double  tolerance,
                                                                     Vector       &step)
   {
-    if (matrix_free || is_filtered || filter == CurvatureFilter::none || filtered_left == 0)
-      return {false, "no filtered tangent"};
+    if (matrix_free || filter == CurvatureFilter::none || filtered_left == 0
+        || filtered_by == CurvatureFilter::absolute)
+      return {false, "no other tangent"};
     --filtered_left;
-    filters_now        = true;
+    fallback           = CurvatureFilter::absolute;
     const auto outcome = correction(state, load, residual, tolerance, step);
-    filters_now        = false;
+    fallback           = CurvatureFilter::none;
     return outcome;
   }
 

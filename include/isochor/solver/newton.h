@@ -8,8 +8,8 @@
 // Pedersen 1982): full steps may raise the residual, but when a few have passed without a
 // new smallest one, the iteration goes back to that and backtracks until the residual falls.
 //
-// Where no length of a step will do, the problem may offer another one, and a step that descends may
-// be judged by the energy, which is not stiff modes' alone.
+// Where no length of a step reduces the residual, a step that descends is judged by the energy, which
+// is not the stiff modes' alone, and the problem may offer another step.
 
 #include <isochor/core/names.h>
 #include <isochor/core/types.h>

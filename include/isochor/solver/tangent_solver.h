@@ -69,8 +69,9 @@ namespace isochor
                                          Vector       &step,
                                          Vector       *rate = nullptr);
 
-    /// The same where the line search cannot use that step: with new factors of the filtered tangent.
-    /// Refused where the last correction was filtered already, or filter_unstable() allows none.
+    /// The same where the line search cannot use that step: with new factors of the tangent by
+    /// absolute curvature, because a projected one may be close to singular. Refused if the last
+    /// correction was that, or filter_unstable() allows no more. Collective.
     NewtonProblem::Correction filtered_correction(const Vector &state,
                                                   double        load,
                                                   const Vector &residual,
@@ -149,9 +150,9 @@ namespace isochor
     bool            is_fresh      = false; ///< the last correction has factored its own tangent
     CurvatureFilter filter        = CurvatureFilter::none;
     unsigned int    filtered_left = 0;
-    bool            is_filtered   = false;    ///< the last correction is
-    bool            filters_now   = false;    ///< the next correction is, whatever the pivots
-    Vector          linearised_at, last_step; ///< of the last correction; empty before
+    CurvatureFilter filtered_by   = CurvatureFilter::none; ///< the last correction's tangent
+    CurvatureFilter fallback      = CurvatureFilter::none; ///< of the next, whatever the pivots
+    Vector          linearised_at, last_step;              ///< of the last correction; empty before
     std::function<void(SparseMatrix &)>    change_tangent;
     std::unique_ptr<MatrixFreeSolver<dim>> matrix_free; ///< null: factors
     LinearStatistics                       counts;
