@@ -52,8 +52,9 @@ namespace isochor
                       "For a Newton iteration at which the tangent has negative pivots too many: "
                       "negative eigenvalues of dP/dF at the quadrature points become zero "
                       "(projected) or positive (absolute), so that the step leads to smaller "
-                      "energies; at most 15 times a load step. Where no length of the step will "
-                      "do, absolute is tried. none, and Stepping = arc length: Newton's own step.");
+                      "energies; at most 15 times a load step. Where no length of a step will "
+                      "do, the filter is tried, and absolute after projected. none, and Stepping = "
+                      "arc length: Newton's own step.");
     prm.declare_entry("Path displacement",
                       to_text(defaults.path_displacement),
                       NumberPattern::at_least(0),

@@ -1,3 +1,4 @@
+#include <isochor/core/text.h>
 #include <isochor/material/advice.h>
 #include <isochor/run/warnings.h>
 
@@ -96,9 +97,9 @@ namespace isochor
       out.add("cells are nearly crushed: J falls to ",
               min_jacobian,
               ", where a Poisson ratio of ",
-              material.poisson_ratio,
+              to_text(material.poisson_ratio),
               " keeps it near 1, and in the mean it is ",
-              result.volume_ratio,
+              to_text(result.volume_ratio),
               "; the mesh is too coarse there for so large a deformation, or the load too big: do "
               "not trust stresses and pressures near those cells");
     }

@@ -218,7 +218,7 @@ namespace isochor
         || filtered_by == CurvatureFilter::absolute)
       return {false, "no other tangent"};
     --filtered_left;
-    fallback           = CurvatureFilter::absolute;
+    fallback           = filtered_by == CurvatureFilter::none ? filter : CurvatureFilter::absolute;
     const auto outcome = correction(state, load, residual, tolerance, step);
     fallback           = CurvatureFilter::none;
     return outcome;

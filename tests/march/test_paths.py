@@ -4,6 +4,7 @@ import cmath
 import csv
 import math
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -118,6 +119,54 @@ class Paths(unittest.TestCase):
         self.assertEqual(result["status"], "not converged")
         self.assertRegex(result["reason"], "step below minimum")
         self.assertAlmostEqual(30e3 * float(steps[-1]["load factor"]) / 22513.8, 1, delta=0.01)
+        self.check_limit(result, 22513.8 / 30e3, 0.005)
+
+    def check_limit(self, result, load, delta):
+        said = re.search(r"limit point near load factor ([0-9.]+),.* arc length", result["reason"])
+        self.assertTrue(said, result["reason"])
+        self.assertAlmostEqual(float(said[1]), load, delta=delta)
+
+    def test_limit_without_the_filter(self):
+        greatest = max(frame_force(0.0205 + 1e-4 * k) for k in range(-10, 11))
+        # Larger fixed steps would jump over it.
+        for stepping, n in (("fixed", 20), ("adaptive", 10)):
+            with self.subTest(stepping=stepping):
+                result, _ = self.follow("snap_through.prm", f"Method/Stepping={stepping}",
+                                        f"Method/Load steps={n}", "Method/Curvature filter=none",
+                                        code=2)
+                self.check_limit(result, greatest, 0.015)
+
+    def test_loads_that_are_not_affine(self):
+        # The loads of the other tests at another load factor: its square, or half of it and half of
+        # its square.
+        for form, load in (("load", lambda l: l * l), ("(1 + load)/2", lambda l: l * (1 + l) / 2)):
+            with self.subTest(form=form):
+                result, steps = self.follow("snap_through.prm",
+                                            f"Scene/Traction=right: 0, -50*{form}")
+                self.assertEqual(float(result["load factor"]), 1)
+                for step in steps:
+                    self.assertAlmostEqual(load(float(step["load factor"])),
+                                           frame_force(-float(step["middle [m]"])), delta=0.015)
+
+                result, steps = self.follow("balloon.prm", "Scene/Cells=1,2",
+                                            f"Scene/Pressure=inner: 30e3*{form}")
+                self.assertEqual(result["status"], "unstable (1 mode)")
+                for step in steps:
+                    exact = balloon_pressure(1 + float(step["inner [m]"]))
+                    self.assertAlmostEqual(30e3 * load(float(step["load factor"])) / exact, 1,
+                                           delta=0.01)
+
+                # The middle is moved; the force that this takes has the limit points.
+                result, steps = self.follow(
+                    "snap_through.prm", "Scene/Traction=", "Scene/Fixed components=",
+                    f"Scene/Prescribed displacement=right: 0, -0.1*load*{form}",
+                    "Scene/Probes=middle: mean displacement y on right; force: reaction on right")
+                self.assertEqual(float(result["load factor"]), 1)
+                for step in steps:
+                    d = 0.1 * load(float(step["load factor"]))
+                    self.assertAlmostEqual(-float(step["middle [m]"]), d, delta=1e-9)
+                    self.assertAlmostEqual(-float(step["force y [N/m]"]), frame_force(d),
+                                           delta=0.015)
 
     def test_path_that_does_not_end(self):
         result, steps = self.follow("balloon.prm", "Scene/Cells=1,2", "Method/Path steps=3", code=2)

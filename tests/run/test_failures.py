@@ -3,9 +3,11 @@ what the user must mend, 2 for no equilibrium), never in a crash; the last conve
 disk, and results.csv says how far the load got and why no further."""
 
 import unittest
+from pathlib import Path
 
 from isochor_case import CONVERGED, IsochorCase, read_csv
 
+CANTILEVER = Path(__file__).resolve().parents[2] / "meshes" / "cantilever.geo"
 SCENE = """
 subsection Scene
   set Mesh            = {mesh}
@@ -97,6 +99,46 @@ class Failures(IsochorCase):
                 # A dead load finds an equilibrium in the end, with the body turned over.
                 row = self.end(scene(loads=loads), ranks=ranks)[0]
                 self.assertGreater(float(row["load factor"]), 0)
+
+    def test_flattened_in_the_end(self):
+        # At two thirds of the load the top is where the bottom is: inverted cells, no limit point.
+        row, code, _ = self.end(scene(cells="2, 2, 2", poisson_ratio=0.3, element="P1", steps=4,
+                                      loads="set Prescribed displacement = top: 0, -0.3*load, 0"))
+        self.assertEqual(code, 2)
+        self.assertIn("inverted cell", row["reason"])
+        self.assertNotIn("limit point", row["reason"])
+
+    def test_crushed_cells(self):
+        # A load 25 times its own stretches the beam to several times its length.
+        for gravity, is_crushed in ((9.8, False), (245, True)):
+            row, code, told = self.end(
+                scene(mesh="box(1, 0.1, 0.1)", cells="10, 1, 1", fixed="left", poisson_ratio=0.4999,
+                      element="P2-P1",
+                      loads=f"set Gravity = 0, -{gravity}, 0\n set Density = 1070"),
+                "--overwrite")
+            self.assertEqual(code, 0)
+            self.assertAlmostEqual(float(row["volume ratio"]), 1, 3)
+            self.assertEqual(float(row["min J"]) < 0.5, is_crushed)
+            self.assertEqual("cells are nearly crushed" in told, is_crushed, told)
+
+    def test_stalls_without_the_filter(self):
+        # Quadratics close to nu = 0.5: Newton's first step stretches the beam, from where its next ones
+        # lead nowhere; the tip is that of shorter load steps, which need no filter.
+        def beam(steps, minimum):
+            return scene(mesh=CANTILEVER, cells="", fixed="left", element="P2",
+                         poisson_ratio=0.499, steps=steps, minimum=minimum,
+                         loads="set Mesh size = 0.1\n set Gravity = 0, -2.4, 0\n"
+                               "set Density = 1070").replace(
+                             "volume: volume", "tip: mean displacement y on right")
+
+        unfiltered = "Method/Curvature filter=none"
+        row, code, _ = self.end(beam(10, 0.1), "--set", unfiltered)
+        self.assertEqual((code, row["failed steps"]), (2, "1"))
+        row, code, _ = self.end(beam(10, 0.1), "--overwrite")
+        self.assertEqual((code, row["failed steps"]), (0, "0"))
+        fine, code, _ = self.end(beam(64, 0.01), "--overwrite", "--set", unfiltered)
+        self.assertEqual(code, 0)
+        self.assertAlmostEqual(float(row["tip [m]"]), float(fine["tip [m]"]), 6)
 
     def test_singular_pressure(self):
         # Three spurious pressure modes, whatever the load.

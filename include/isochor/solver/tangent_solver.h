@@ -69,9 +69,9 @@ namespace isochor
                                          Vector       &step,
                                          Vector       *rate = nullptr);
 
-    /// The same where the line search cannot use that step: with new factors of the tangent by
-    /// absolute curvature, because a projected one may be close to singular. Refused if the last
-    /// correction was that, or filter_unstable() allows no more. Collective.
+    /// The same where the line search cannot use that step: with new factors of the filtered
+    /// tangent; if it was, by absolute curvature, because a projected one may be close to singular.
+    /// Refused if that was absolute, or filter_unstable() allows no more. Collective.
     NewtonProblem::Correction filtered_correction(const Vector &state,
                                                   double        load,
                                                   const Vector &residual,
