@@ -136,7 +136,7 @@ class Failures(IsochorCase):
         self.assertEqual((code, row["failed steps"]), (2, "1"))
         row, code, _ = self.end(beam(10, 0.1), "--overwrite")
         self.assertEqual((code, row["failed steps"]), (0, "0"))
-        fine, code, _ = self.end(beam(64, 0.01), "--overwrite", "--set", unfiltered)
+        fine, code, _ = self.end(beam(16, 0.001), "--overwrite", "--set", unfiltered)
         self.assertEqual(code, 0)
         self.assertAlmostEqual(float(row["tip [m]"]), float(fine["tip [m]"]), 6)
 
