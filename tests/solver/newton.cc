@@ -21,6 +21,12 @@
 // 11 atan x from 2: -3.5, 14, -279, 1.2e5, -2.3e10, ever farther out; then, strict, from 2 again
 //    with half a step to -0.768, where Newton's method converges: 0.274, -0.0135, 1.6e-6, 0. That
 //    is 5 + 1 + 4 = 10 iterations, 1 halving.
+// 12 As 6, but the problem has another step, -x: the seventh linear system, and 0 is the solution.
+//    One that is refused changes nothing: as 6.
+// 13 sin x = 0 as a minimum of -cos x, from 2.5 by the absolute slope, x - sin x / |cos x|, with a
+//    patience of 1. To 1.75 the residual rises: back, and strict, no length reduces it (9 halvings),
+//    but the full step lowers -cos x. To -3.68 the residual falls; to -4.27 it rises, and again 9
+//    halvings; -6.36, -6.283061, -2 pi + 6e-13: 8 iterations. Without an energy, stalled in the second.
 
 #include "../common/report.h"
 
@@ -47,6 +53,8 @@ namespace
     std::function<bool(double)>   admissible = [](double) { return true; };
     unsigned int                  fails_at   = 1000; ///< iteration in which the solver gives up
     unsigned int                  stops_at   = 1000; ///< iteration after which to interrupt
+    std::function<double(double)> energy     = [](double) { return std::nan(""); };
+    std::function<double(double)> other_step = {}; ///< at x, the fallback; NaN: refused
     std::vector<double>           iterates   = {};
 
     NewtonReport run(const double start, const NewtonOptions &options = {})
@@ -58,15 +66,21 @@ namespace
       NewtonProblem problem;
       problem.residual = [&](const Vector &x, Vector &residual) {
         residual[0] = f(x[0]);
-        return Size{std::abs(residual[0]), tolerance, admissible(x[0]), 0.};
+        return Size{std::abs(residual[0]), tolerance, admissible(x[0]), 0., energy(x[0])};
       };
       problem.correction
           = [&](const Vector &x, const Vector &residual, double, Vector &step) -> Correction {
         if (++solves >= fails_at)
           return {false, "the solver gives up"};
         step[0] = -residual[0] / slope(x[0]);
-        return {true, ""};
+        return {true, "", slope(x[0]) > 0.};
       };
+      if (other_step)
+        problem.fallback
+            = [&](const Vector &x, const Vector &, double, Vector &step) -> Correction {
+          step[0] = other_step(x[0]);
+          return {!std::isnan(step[0]), ""};
+        };
       problem.accepted = [&](const unsigned int iteration, const Size &, double) {
         return iteration >= stops_at;
       };
@@ -143,6 +157,22 @@ namespace
     Scalar uphill{[](const double x) { return x; }, [](double) { return -1.; }};
     print("6 uphill", uphill.run(1.));
     std::cout << "  stays at " << uphill.iterates.back() << '\n';
+
+    uphill.other_step = [](const double x) { return -x; };
+    print("12 uphill, another step", uphill.run(1.));
+    std::cout << "  ends at " << uphill.iterates.back() << '\n';
+    uphill.other_step = [](double) { return std::nan(""); };
+    print("  refused", uphill.run(1.));
+
+    Scalar pendulum{[](const double x) { return std::sin(x); },
+                    [](const double x) { return std::abs(std::cos(x)); }};
+    options          = {};
+    options.patience = 1;
+    print("13 without an energy", pendulum.run(2.5, options));
+    pendulum.energy = [](const double x) { return -std::cos(x); };
+    print("  with it", pendulum.run(2.5, options));
+    std::cout << "  last error "
+              << below(std::abs(pendulum.iterates.back() + 2. * std::acos(-1.)), 1e-11) << '\n';
 
     Scalar outward{[](const double x) { return std::atan(x); },
                    [](const double x) { return 1. / (1. + x * x); }};
