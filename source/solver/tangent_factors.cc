@@ -131,7 +131,7 @@ namespace isochor
   template <int dim>
   Factorisation TangentSolver<dim>::factor_or_use_double(const Vector &state, const bool is_final)
   {
-    const Factorisation factorisation = factor(state);
+    Factorisation factorisation = factor(state);
     if (backend->solver() != LinearSolver::kept)
       return factorisation;
     // Rounding is a matter of the element and the Poisson ratio, so that a first look tells.
@@ -139,10 +139,16 @@ namespace isochor
     if (factorisation.succeeded && (!matters || pivots_are_sure()))
       return factorisation;
 
+    if (factorisation.succeeded && double_is_refused)
+      {
+        counts.pivot_excess.reset();
+        return factorisation;
+      }
     counts.gave_up_single_precision = true;
     const std::string refusal       = use(LinearSolver::direct);
     if (refusal.empty())
       return factor(state);
+    double_is_refused = true;
     if (!factorisation.succeeded)
       {
         Factorisation refused;
@@ -150,9 +156,9 @@ namespace isochor
         return refused;
       }
     use(LinearSolver::kept);
-    Factorisation unsure = factor(state);
+    factorisation = factor(state);
     counts.pivot_excess.reset();
-    return unsure;
+    return factorisation;
   }
 
   template <int dim>

@@ -146,13 +146,14 @@ namespace isochor
     std::unique_ptr<LinearBackend<dim>> backend;
     double fresh_effort = 0; ///< iterations per digit when the preconditioner was new
     /// FGMRES converges fast enough with the factors of an earlier tangent.
-    bool            are_kept      = false;
-    bool            is_fresh      = false; ///< the last correction has factored its own tangent
-    CurvatureFilter filter        = CurvatureFilter::none;
-    unsigned int    filtered_left = 0;
-    CurvatureFilter filtered_by   = CurvatureFilter::none; ///< the last correction's tangent
-    CurvatureFilter fallback      = CurvatureFilter::none; ///< of the next, whatever the pivots
-    Vector          linearised_at, last_step;              ///< of the last correction; empty before
+    bool            are_kept          = false;
+    bool            is_fresh          = false; ///< the last correction has factored its own tangent
+    bool            double_is_refused = false; ///< its factors do not fit into memory
+    CurvatureFilter filter            = CurvatureFilter::none;
+    unsigned int    filtered_left     = 0;
+    CurvatureFilter filtered_by       = CurvatureFilter::none; ///< the last correction's tangent
+    CurvatureFilter fallback          = CurvatureFilter::none; ///< of the next, whatever the pivots
+    Vector          linearised_at, last_step; ///< of the last correction; empty before
     std::function<void(SparseMatrix &)>    change_tangent;
     std::unique_ptr<MatrixFreeSolver<dim>> matrix_free; ///< null: factors
     LinearStatistics                       counts;
