@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from rerun_study import Failed, processor, version
+from rerun_study import Failed, blas_kernels, processor, version
 from results_table import number
 from study_tables import figure, markdown, refreshed
 
@@ -37,6 +37,10 @@ def checked(options):
     if not options.isochor.is_file():
         raise Failed(f"{options.isochor}: no such program; build it or name it by --isochor")
     options.isochor = options.isochor.resolve()
+    # Other codes are to have the kernels that Isochor asks for.
+    text = subprocess.run([options.isochor, "--version"], capture_output=True, text=True).stdout
+    if kernels := blas_kernels(text):
+        ENVIRONMENT.setdefault("OPENBLAS_CORETYPE", kernels)
     options.show = options.show or bool(options.only)
     return options
 

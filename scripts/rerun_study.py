@@ -111,8 +111,15 @@ def processor():
 
 
 def version(isochor):
+    """Isochor's, and the kernels of OpenBLAS, on which seconds depend by a factor of two."""
     text = subprocess.run([isochor, "--version"], capture_output=True, text=True).stdout
-    return text.splitlines()[0] if text else ""
+    kernels = blas_kernels(text)
+    return (text.splitlines()[0] if text else "") + (f", BLAS kernels {kernels}" if kernels else "")
+
+
+def blas_kernels(version_text):
+    match = re.search(r"\(OpenBLAS [^)]* (\w+) MAX_THREADS", version_text)
+    return match and match[1]
 
 
 def update(folder, results, isochor):
