@@ -55,8 +55,7 @@ namespace isochor
     std::ostringstream why;
     why << "; the displacements grow ever faster towards a limit point near load factor " << load
         << ", beyond which there is no equilibrium close by: Method/Stepping = arc length follows "
-           "the "
-           "path through it";
+           "the path through it";
     return why.str();
   }
 
