@@ -22,7 +22,7 @@ from benchmark_runs import (Failed, checked, figure, interleaved, markdown, numb
 
 BLOCKS = {"P1-P1s": [8, 12, 18, 27, 40], "P2-P1": [4, 6, 9, 13, 20]}
 SOLVERS = ["direct", "kept", "block"]
-LIMIT = 120
+LIMIT = 400
 COLUMNS = ["unknowns", "krylov iterations", "seconds assembly", "seconds factorisation",
            "seconds solve", "linear algebra", "predicted factors memory MB", "factors memory MB",
            "peak memory MB"]
