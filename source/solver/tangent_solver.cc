@@ -97,6 +97,100 @@ namespace isochor
   }
 
   template <int dim>
+  struct TangentSolver<dim>::Linearisation
+  {
+    const Vector &state;
+    double        load;
+    const Vector &residual;
+    double        tolerance;
+    Vector       &step, *rate; ///< to be found; no rate: null
+    Vector        rhs, gap, rate_rhs, rate_gap;
+    LinearSolve   outcome;
+  };
+
+  template <int dim>
+  void TangentSolver<dim>::linearise(Linearisation         &at,
+                                     const PredictedStress *stress,
+                                     const CurvatureFilter  which)
+  {
+    at.rhs.equ(-1., at.residual);
+    equilibrium.prescribed().gap(at.state, at.load, at.gap);
+    typename PrescribedDisplacements<dim>::Sides sides{{&at.rhs, &at.gap}};
+    if (at.rate != nullptr)
+      {
+        load_rates(equilibrium, at.state, at.load, at.rate_rhs, at.rate_gap);
+        sides.emplace_back(&at.rate_rhs, &at.rate_gap);
+      }
+    assemble(at.state, at.load, stress, which, sides);
+  }
+
+  template <int dim>
+  bool TangentSolver<dim>::solve_all(Linearisation &at)
+  {
+    at.outcome = solve(at.rhs, at.tolerance, at.step);
+    if (at.outcome.succeeded && at.rate != nullptr)
+      at.outcome = solve(at.rate_rhs, std::min(at.tolerance, rate_tolerance), *at.rate);
+    return at.outcome.succeeded;
+  }
+
+  template <int dim>
+  Factorisation TangentSolver<dim>::factor_anew(Linearisation &at, const bool is_predicted)
+  {
+    are_kept                 = false;
+    const auto excess_before = counts.pivot_excess;
+    rotations.start(at.state);
+    Factorisation factorisation = factor_or_use_double(at.state);
+    if (filtered_by != CurvatureFilter::none)
+      {
+        // The filtered tangent says nothing of the state.
+        counts.pivot_excess = excess_before;
+        return factorisation;
+      }
+    if (is_predicted && counts.pivot_excess.value_or(0) > 0)
+      {
+        // Far from a solution the prediction may be one of compression.
+        linearise(at, nullptr, CurvatureFilter::none);
+        factorisation = factor_or_use_double(at.state);
+      }
+    const auto excess = counts.pivot_excess;
+    if (filter != CurvatureFilter::none && filtered_left > 0 && excess.value_or(0) > 0)
+      {
+        filtered_by = filter;
+        --filtered_left;
+        linearise(at, nullptr, filter);
+        factorisation       = factor_or_use_double(at.state);
+        counts.pivot_excess = excess;
+      }
+    return factorisation;
+  }
+
+  template <int dim>
+  std::string TangentSolver<dim>::solve_otherwise(Linearisation &at)
+  {
+    if (backend->solver() == LinearSolver::block && options.solver == LinearSolver::automatic
+        && counts.predicted_megabytes <= memory_limit)
+      {
+        counts.note.clear();
+        use(LinearSolver::kept);
+        if (const Factorisation kept = factor_or_use_double(at.state); !kept.succeeded)
+          return kept.failure;
+        if (solve_all(at))
+          return "";
+      }
+    if (backend->solver() == LinearSolver::kept)
+      {
+        counts.gave_up_single_precision = true;
+        if (const std::string refusal = use(LinearSolver::direct); !refusal.empty())
+          return refusal;
+        if (const Factorisation direct = factor(at.state); !direct.succeeded)
+          return direct.failure;
+        if (solve_all(at))
+          return "";
+      }
+    return complaint(at.outcome);
+  }
+
+  template <int dim>
   NewtonProblem::Correction TangentSolver<dim>::correction(const Vector &state,
                                                            const double  load,
                                                            const Vector &residual,
@@ -107,98 +201,34 @@ namespace isochor
     if (matrix_free)
       return matrix_free_correction(state, load, residual, tolerance, step, rate);
 
-    Vector rhs(residual), gap(residual), rate_rhs, rate_gap;
-    if (rate != nullptr)
-      {
-        rate_rhs.reinit(residual);
-        rate_gap.reinit(residual);
-      }
-    const auto linearise = [&](const PredictedStress *stress, const CurvatureFilter filter) {
-      rhs.equ(-1., residual);
-      equilibrium.prescribed().gap(state, load, gap);
-      typename PrescribedDisplacements<dim>::Sides sides{{&rhs, &gap}};
-      if (rate != nullptr)
-        {
-          load_rates(equilibrium, state, load, rate_rhs, rate_gap);
-          sides.emplace_back(&rate_rhs, &rate_gap);
-        }
-      assemble(state, load, stress, filter, sides);
-    };
+    const Vector  none = rate == nullptr ? Vector() : Vector(residual.get_partitioner());
+    Linearisation at{
+        state, load, residual, tolerance, step, rate, residual, residual, none, none, {}};
     state.update_ghost_values();
-    const bool is_fallback   = fallback != CurvatureFilter::none;
-    const auto stress        = is_fallback ? nullptr : predicted_stress(state);
-    const auto excess_before = counts.pivot_excess;
-    filtered_by              = fallback;
-    are_kept                 = are_kept && !is_fallback;
-    linearise(stress.get(), fallback);
-
-    LinearSolve outcome;
-    const auto  solve_all = [&]() {
-      outcome = solve(rhs, tolerance, step);
-      if (outcome.succeeded && rate != nullptr)
-        outcome = solve(rate_rhs, std::min(tolerance, rate_tolerance), *rate);
-      return outcome.succeeded;
-    };
+    const bool is_fallback = fallback != CurvatureFilter::none;
+    const auto stress      = is_fallback ? nullptr : predicted_stress(state);
+    filtered_by            = fallback;
+    are_kept               = are_kept && !is_fallback;
+    linearise(at, stress.get(), fallback);
 
     if (are_kept)
       {
         const auto scope = stopwatch.measure(Phase::solve);
         rotations.update(state);
       }
-    bool is_solved = are_kept && solve_all();
-    is_fresh       = !is_solved && !is_fallback;
-    if (!is_solved)
+    const bool kept_do = are_kept && solve_all(at);
+    is_fresh           = !kept_do && !is_fallback;
+    if (!kept_do)
       {
-        are_kept = false;
-        rotations.start(state);
-        Factorisation factorisation = factor_or_use_double(state);
-        if (stress && counts.pivot_excess.value_or(0) > 0)
-          {
-            // Far from a solution the prediction may be one of compression.
-            linearise(nullptr, CurvatureFilter::none);
-            factorisation = factor_or_use_double(state);
-          }
-        if (is_fallback)
-          counts.pivot_excess = excess_before;
-        else if (filter != CurvatureFilter::none && filtered_left > 0
-                 && counts.pivot_excess.value_or(0) > 0)
-          {
-            filtered_by = filter;
-            --filtered_left;
-            const auto excess = counts.pivot_excess;
-            linearise(nullptr, filter);
-            factorisation       = factor_or_use_double(state);
-            counts.pivot_excess = excess;
-          }
-        if (!factorisation.succeeded)
-          return {false, factorisation.failure};
-        is_solved = solve_all();
-        if (!is_solved && backend->solver() == LinearSolver::block
-            && options.solver == LinearSolver::automatic
-            && counts.predicted_megabytes <= memory_limit)
-          {
-            counts.note.clear();
-            use(LinearSolver::kept);
-            if (const Factorisation again = factor_or_use_double(state); !again.succeeded)
-              return {false, again.failure};
-            is_solved = solve_all();
-          }
-        if (!is_solved && backend->solver() == LinearSolver::kept)
-          {
-            counts.gave_up_single_precision = true;
-            if (const std::string refusal = use(LinearSolver::direct); !refusal.empty())
-              return {false, refusal};
-            if (const Factorisation again = factor(state); !again.succeeded)
-              return {false, again.failure};
-            is_solved = solve_all();
-          }
+        if (const Factorisation fresh = factor_anew(at, stress != nullptr); !fresh.succeeded)
+          return {false, fresh.failure};
+        if (!solve_all(at))
+          if (const std::string failure = solve_otherwise(at); !failure.empty())
+            return {false, failure};
+        fresh_effort = effort(at.outcome);
       }
-    if (!are_kept)
-      fresh_effort = effort(outcome);
-    are_kept = is_solved && filtered_by == CurvatureFilter::none && backend->is_preconditioner()
-               && outcome.krylov_iterations <= max_iterations_when_kept(tolerance);
-    if (!is_solved)
-      return {false, complaint(outcome)};
+    are_kept = filtered_by == CurvatureFilter::none && backend->is_preconditioner()
+               && at.outcome.krylov_iterations <= max_iterations_when_kept(tolerance);
     scaling.apply(step);
     if (rate != nullptr)
       scaling.apply(*rate);

@@ -119,7 +119,16 @@ namespace isochor
                          const typename PrescribedDisplacements<dim>::Sides &sides);
     /// For a @p state that Newton's last step led to; null for any other.
     std::unique_ptr<PredictedStress> predicted_stress(const Vector &state) const;
-    Factorisation                    factor(const Vector &state);
+    /// One correction on its way.
+    struct Linearisation;
+    void linearise(Linearisation &at, const PredictedStress *stress, CurvatureFilter which);
+    bool solve_all(Linearisation &at); ///< step and, if wanted, rate
+    /// New factors of the tangent or, where pivots show negative ones too many, of the one without
+    /// predicted stress, of the filtered one.
+    Factorisation factor_anew(Linearisation &at, bool is_predicted);
+    /// By kept factors after the block solver, in double precision after single; why not, or empty.
+    std::string   solve_otherwise(Linearisation &at);
+    Factorisation factor(const Vector &state);
     /// In double precision, for good, if single precision fails or, where that matters (always if @p
     /// is_final), its pivots are in doubt.
     Factorisation factor_or_use_double(const Vector &state, bool is_final = false);
