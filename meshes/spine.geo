@@ -65,9 +65,9 @@ If (hexahedra)
   Recursive Delete{ Surface{ outside[] }; }
 
   mean_radius = (neck_radius + vertebra_radius) / 2;
-  along  = Max(1, Floor(half / size + 0.5));
-  across = Max(1, Floor((mean_radius - Sqrt(2) * core) / size + 0.5));
-  around = Max(1, Floor((core + Pi / 4 * mean_radius) / size + 0.5)); // of a quarter
+  along[]  = {}; // the curves, by their direction
+  across[] = {};
+  around[] = {};
   curves[] = Curve{:};
   For i In {0:#curves[] - 1}
     c = curves[i];
@@ -75,13 +75,17 @@ If (hexahedra)
     dy = box(4) - box(1);
     dz = box(5) - box(2);
     If (box(3) - box(0) > half / 2)
-      Transfinite Curve{c} = along + 1;
+      along[] += c;
     ElseIf (Fabs(dy - dz) < core / 10) // on a diagonal
-      Transfinite Curve{c} = across + 1;
+      across[] += c;
     Else
-      Transfinite Curve{c} = around + 1;
+      around[] += c;
     EndIf
   EndFor
+  quarter = core + Pi / 4 * mean_radius; // mean length
+  Transfinite Curve{ along[] }  = Max(1, Floor(half / size + 0.5)) + 1;
+  Transfinite Curve{ across[] } = Max(1, Floor((mean_radius - Sqrt(2) * core) / size + 0.5)) + 1;
+  Transfinite Curve{ around[] } = Max(1, Floor(quarter / size + 0.5)) + 1;
   Transfinite Surface{:};
   Recombine Surface{:};
   Transfinite Volume{:};
