@@ -1,5 +1,5 @@
-// A pneumatic robot, a cushion: a square pad, rounded all around, with a closed cavity, rounded likewise;
-// y is up. Our choice: the paper shows it (Locking-Proof Tetrahedra, figure 6) but gives no dimensions.
+// A pneumatic robot, a cushion: a square pad, rounded all around, with a closed cavity, rounded too; y is
+// up. Our choice: the paper shows it (Locking-Proof Tetrahedra, figure 6) but gives no dimensions.
 // Unstructured Delaunay tetrahedra of one edge length.
 
 DefineConstant[ size = 0.008 ]; // edge length, m

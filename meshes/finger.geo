@@ -1,6 +1,6 @@
 // A pneumatic robot, a finger along x: chambers side by side on a thick sole, one closed cavity through
 // the channel that joins them, with slots between them that open to the top; y is up. Under pressure
-// the chambers swell, the sole does not get longer, and the finger bends down. Our choice: the paper shows
+// the chambers swell, the sole hardly gets longer, and the finger bends down. Our choice: the paper shows
 // it (Locking-Proof Tetrahedra, figure 6) but gives no dimensions.
 // Unstructured Delaunay tetrahedra of one edge length.
 
@@ -27,7 +27,8 @@ cavity[] = {};
 slots[]  = {};
 For i In {0:chambers - 1}
   v = newv;
-  Box(v) = { i * pitch + wall, sole, -chamber_width / 2, chamber_length, chamber_height, chamber_width };
+  Box(v) = { i * pitch + wall, sole, -chamber_width / 2,
+             chamber_length, chamber_height, chamber_width };
   cavity[] += v;
   If (i > 0)
     v = newv;

@@ -1,8 +1,8 @@
 // A soft robot arm along x, a spine: vertebrae that are waves of a body of revolution, with necks
 // between them and at both ends. Our choice: the paper shows the arm (Locking-Proof Tetrahedra, figures
 // 4 and 5) but gives no dimensions; with these the tip sinks about as far as in its table 2.
-// Unstructured Delaunay tetrahedra of one edge length; or hexahedra, five around the axis and as many
-// along half a wave as fit.
+// Unstructured Delaunay tetrahedra of one edge length; or hexahedra, a square core and four blocks
+// around it.
 
 DefineConstant[ size = 0.025 ];  // edge length, m
 DefineConstant[ hexahedra = 0 ]; // 1: hexahedra
