@@ -15,10 +15,11 @@ namespace isochor
   {
     // Of the memory that is available, for factors that nobody limits.
     constexpr double usable_share = 0.8;
-    // Operations of a factorisation per entry of the matrix above which the block solver takes over.
-    // Its linear algebra took as long as that of kept factors at 2e3 to 6e3 (P1-P1s in 3D, 24,000 to
-    // 75,000 unknowns); far from equilibrium it is slower and it counts no pivots, hence the margin.
-    constexpr double worthwhile_flops = 3e4;
+    // Operations of a factorisation per entry of the matrix above which the block solver takes over. At
+    // rest its linear algebra took as long as that of kept factors at 1e4 to 4e4 (P1-P1s with 27,000
+    // unknowns, P2-P1 with 90,000; AVX-512); far from equilibrium it is slower and it counts no pivots,
+    // hence the margin.
+    constexpr double worthwhile_flops = 6e4;
     // What a solve with factors in single precision may leave of a right-hand side of random signs, if
     // their pivots are to have the signs of the matrix'. Measured: 0.001 to 0.04 of P1-P1 on a beam,
     // whose pivots are right; 0.3 to 40 of P2 at nu = 0.4999, whose pivots show modes that are not there.
