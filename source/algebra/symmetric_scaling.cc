@@ -1,5 +1,8 @@
 #include <isochor/algebra/symmetric_scaling.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace isochor
@@ -32,8 +35,19 @@ namespace isochor
         largest[row - n_definite] = std::max(
             largest[row - n_definite], std::abs(values[k]) * factors.local_element(columns[k]));
     factors.zero_out_ghost_values();
+    // What rounding has left of a coupling, as where all displacements around are held, is none; the
+    // diagonal takes its place.
+    constexpr double rounding = 1e-11;
+    const double     any      = dealii::Utilities::MPI::max(
+        largest.empty() ? 0. : *std::max_element(largest.begin(), largest.end()),
+        matrix.partitioner()->get_mpi_communicator());
     for (LocalIndex row = n_definite; row < matrix.n_rows(); ++row)
-      factors.local_element(row) = inverse(largest[row - n_definite]);
+      {
+        double size = largest[row - n_definite];
+        if (size <= rounding * any)
+          size = std::sqrt(std::abs(values[matrix.position(row, row)]));
+        factors.local_element(row) = inverse(size > rounding * any ? size : any);
+      }
     factors.update_ghost_values();
   }
 

@@ -12,7 +12,7 @@ namespace isochor
   public:
     /// The first @p n_definite owned rows of each rank, @p n_together that follow each other with the
     /// same factor, get a mean diagonal of 1; the others (pressures) a largest coupling with those of
-    /// 1. Rows of zeros are left alone. Collective.
+    /// 1, or, where there is none but rounding's, a diagonal of 1. Collective.
     void
     compute(const SparseMatrix &matrix, LocalIndex n_definite, unsigned int n_together);
 
