@@ -146,9 +146,10 @@ namespace isochor
                || trial.size.merit < (1. - sufficient * length) * here.size.merit || !strict
                || here.size.gap > 0.;
       });
-      const double slope          = here.residual * step;
-      if (by_residual != Search::stalled || !correction.descends || !(slope < 0.)
-          || std::isnan(here.size.energy))
+      if (by_residual != Search::stalled || !correction.descends || std::isnan(here.size.energy))
+        return by_residual;
+      const double slope = here.residual * step;
+      if (!(slope < 0.)) // written so that NaN is none
         return by_residual;
       has_descended = true;
       return search(

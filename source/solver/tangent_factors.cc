@@ -94,6 +94,7 @@ namespace isochor
       counts.predicted_megabytes = megabytes;
     if (megabytes <= memory_limit)
       return "";
+    double_is_refused = double_is_refused || solver == LinearSolver::direct;
     std::ostringstream why;
     why << "factors would take " << megabytes << " MB, the memory limit is " << std::setprecision(4)
         << memory_limit << " MB";
@@ -150,7 +151,6 @@ namespace isochor
     const std::string refusal       = use(LinearSolver::direct);
     if (refusal.empty())
       return factor(state);
-    double_is_refused = true;
     if (!factorisation.succeeded)
       {
         Factorisation refused;
@@ -197,7 +197,7 @@ namespace isochor
     change_tangent = change;
     rotations.start(state);
     are_kept = factor_or_use_double(state, true).succeeded && backend->is_preconditioner();
-    if (backend->solver() == LinearSolver::kept && counts.pivot_excess != 0)
+    if (backend->solver() == LinearSolver::kept && counts.pivot_excess != 0 && !double_is_refused)
       {
         // Those in double precision take at most twice as much; where both together are too much,
         // they come in the place of the others.

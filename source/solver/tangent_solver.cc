@@ -200,13 +200,19 @@ namespace isochor
   {
     if (matrix_free)
       return matrix_free_correction(state, load, residual, tolerance, step, rate);
-
     const Vector  none = rate == nullptr ? Vector() : Vector(residual.get_partitioner());
     Linearisation at{
         state, load, residual, tolerance, step, rate, residual, residual, none, none, {}};
-    state.update_ghost_values();
+    return correct(at, CurvatureFilter::none);
+  }
+
+  template <int dim>
+  NewtonProblem::Correction TangentSolver<dim>::correct(Linearisation        &at,
+                                                        const CurvatureFilter fallback)
+  {
+    at.state.update_ghost_values();
     const bool is_fallback = fallback != CurvatureFilter::none;
-    const auto stress      = is_fallback ? nullptr : predicted_stress(state);
+    const auto stress      = is_fallback ? nullptr : predicted_stress(at.state);
     filtered_by            = fallback;
     are_kept               = are_kept && !is_fallback;
     linearise(at, stress.get(), fallback);
@@ -214,7 +220,7 @@ namespace isochor
     if (are_kept)
       {
         const auto scope = stopwatch.measure(Phase::solve);
-        rotations.update(state);
+        rotations.update(at.state);
       }
     const bool kept_do = are_kept && solve_all(at);
     is_fresh           = !kept_do && !is_fallback;
@@ -228,12 +234,12 @@ namespace isochor
         fresh_effort = effort(at.outcome);
       }
     are_kept = filtered_by == CurvatureFilter::none && backend->is_preconditioner()
-               && at.outcome.krylov_iterations <= max_iterations_when_kept(tolerance);
-    scaling.apply(step);
-    if (rate != nullptr)
-      scaling.apply(*rate);
-    linearised_at = state;
-    last_step     = step;
+               && at.outcome.krylov_iterations <= max_iterations_when_kept(at.tolerance);
+    scaling.apply(at.step);
+    if (at.rate != nullptr)
+      scaling.apply(*at.rate);
+    linearised_at = at.state;
+    last_step     = at.step;
     return {true, "", filtered_by != CurvatureFilter::none};
   }
 
@@ -248,10 +254,9 @@ namespace isochor
         || filtered_by == CurvatureFilter::absolute)
       return {false, "no other tangent"};
     --filtered_left;
-    fallback           = filtered_by == CurvatureFilter::none ? filter : CurvatureFilter::absolute;
-    const auto outcome = correction(state, load, residual, tolerance, step);
-    fallback           = CurvatureFilter::none;
-    return outcome;
+    Linearisation at{
+        state, load, residual, tolerance, step, nullptr, residual, residual, {}, {}, {}};
+    return correct(at, filtered_by == CurvatureFilter::none ? filter : CurvatureFilter::absolute);
   }
 
   template <int dim>

@@ -123,6 +123,8 @@ namespace isochor
     struct Linearisation;
     void linearise(Linearisation &at, const PredictedStress *stress, CurvatureFilter which);
     bool solve_all(Linearisation &at); ///< step and, if wanted, rate
+    /// By the tangent that @p fallback filters, whatever the pivots; none: see factor_anew().
+    NewtonProblem::Correction correct(Linearisation &at, CurvatureFilter fallback);
     /// New factors of the tangent or, where pivots show negative ones too many, of the one without
     /// predicted stress, of the filtered one.
     Factorisation factor_anew(Linearisation &at, bool is_predicted);
@@ -161,7 +163,6 @@ namespace isochor
     CurvatureFilter filter            = CurvatureFilter::none;
     unsigned int    filtered_left     = 0;
     CurvatureFilter filtered_by       = CurvatureFilter::none; ///< the last correction's tangent
-    CurvatureFilter fallback          = CurvatureFilter::none; ///< of the next, whatever the pivots
     Vector          linearised_at, last_step; ///< of the last correction; empty before
     std::function<void(SparseMatrix &)>    change_tangent;
     std::unique_ptr<MatrixFreeSolver<dim>> matrix_free; ///< null: factors
