@@ -20,7 +20,7 @@ subsection Method
   set Minimum load step = 0.01
 end
 """
-SLOW = SCENE.format(cells="24, 4, 4", traction="0, -100, 0", steps=2000)
+SLOW = SCENE.format(cells="24, 4, 4", traction="0, -100, 0", steps=50000)  # minutes
 
 
 class Endings(IsochorCase):
