@@ -3,6 +3,7 @@
 #include "gmsh_session.h"
 
 #include <isochor/mesh/cell_geometry.h>
+#include <isochor/mesh/geo_constant.h>
 
 #include <gmsh.h>
 
@@ -74,7 +75,7 @@ namespace isochor
     for (const auto &[family, n] : families)
       held += (held.empty() ? "" : ", ") + std::to_string(n) + " " + family;
     std::string remesh; // advice for a .geo file
-    if (is_geo && !has_constant(request.source, "hexahedra"))
+    if (is_geo && !geo_constant(request.source, "hexahedra"))
       remesh = is_hex ? "in the .geo file: DefineConstant[ hexahedra = 0 ], and Recombine where it "
                         "is not 0, as it will be then"
                       : "in the .geo file: no Recombine, no extruded layers with it";

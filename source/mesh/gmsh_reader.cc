@@ -259,6 +259,24 @@ namespace isochor
     }
   } // namespace
 
+  namespace
+  {
+    /// Of the cells that their curved edges turn inside out, mend those that can be mended; sound ones
+    /// stay as they are. What is left is told by the check of the mesh.
+    void untangle()
+    {
+      gmsh::option::setNumber("Mesh.HighOrderThresholdMin", 0.01);
+      gmsh::option::setNumber("Mesh.HighOrderPassMax", 3);
+      try
+        {
+          gmsh::model::mesh::optimize("HighOrder");
+        }
+      catch (...) // gmsh throws if a cell is left
+        {
+        }
+    }
+  } // namespace
+
   template <int dim>
   RawMesh<dim> read_with_gmsh(const MeshRequest &request)
   {
@@ -280,6 +298,7 @@ namespace isochor
             {
               gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
               gmsh::model::mesh::setOrder(2);
+              untangle();
             }
         });
       }

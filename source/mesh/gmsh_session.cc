@@ -1,12 +1,13 @@
 #include "gmsh_session.h"
 
+#include <isochor/mesh/geo_constant.h>
+
 #include <gmsh.h>
 
 #include <clocale>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include <unistd.h>
@@ -118,43 +119,6 @@ namespace isochor
     throw UserError(origin + ": gmsh says: " + message);
   }
 
-  bool has_constant(const std::string &path, const std::string &name)
-  {
-    std::ifstream     file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    std::string source = text.str();
-    // Comments first: the second pattern must not see a DefineConstant that is out of use.
-    // (Not by std::regex: it recurses per character and overflows the stack on long files.)
-    for (std::size_t begin = 0; (begin = source.find('/', begin)) != std::string::npos;)
-      {
-        std::size_t end = std::string::npos;
-        if (source.compare(begin, 2, "//") == 0)
-          end = source.find('\n', begin);
-        else if (source.compare(begin, 2, "/*") == 0)
-          end = source.find("*/", begin + 2) == std::string::npos
-                    ? std::string::npos
-                    : source.find("*/", begin + 2) + 2;
-        else
-          {
-            ++begin;
-            continue;
-          }
-        source.replace(begin, end == std::string::npos ? end : end - begin, " ");
-      }
-    const std::regex constant(R"((^|[\s,\[]))" + name + R"(\s*(=|,|$))");
-    for (std::size_t begin = 0; (begin = source.find("DefineConstant", begin)) != std::string::npos;
-         ++begin)
-      {
-        const std::size_t open  = source.find('[', begin);
-        const std::size_t close = source.find(']', begin);
-        if (open < close && close != std::string::npos
-            && std::regex_search(source.substr(open + 1, close - open - 1), constant))
-          return true;
-      }
-    return false;
-  }
-
   // Through a file of ours that includes the user's. A constant that exists before DefineConstant
   // wins; given on gmsh's command line (-setnumber) it would outlive gmsh::finalize(). And a last
   // line without a newline is lost if gmsh 4.8 opens the file itself, an endless loop if it
@@ -165,12 +129,12 @@ namespace isochor
     if (request.source.find('"') != std::string::npos)
       throw UserError(origin + ": gmsh takes no double quotes in file names");
     const bool         sized = request.size > 0;
-    const bool         named = sized && has_constant(request.source, "size");
+    const bool         named = sized && geo_constant(request.source, "size");
     std::ostringstream text;
     text.precision(17);
     if (named)
       text << "size = " << request.size << ";\n";
-    if (has_constant(request.source, "hexahedra"))
+    if (geo_constant(request.source, "hexahedra"))
       text << "hexahedra = " << (request.kind == CellKind::hypercube ? 1 : 0) << ";\n";
     text << "Include \"" << fs::absolute(request.source).string() << "\";\n";
     const TemporaryFile wrapper(text.str(), ".geo");

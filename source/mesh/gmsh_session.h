@@ -26,9 +26,6 @@ namespace isochor
     std::string locale;
   };
 
-  /// Does the .geo file let its constant @p name be set from outside: DefineConstant[ name = ... ]?
-  bool has_constant(const std::string &path, const std::string &name);
-
   /// Open the .geo file of @p request, with its size and its kind of cells given to it.
   void
   open_geometry(const GmshSession &session, const MeshRequest &request, const std::string &origin);

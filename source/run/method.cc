@@ -122,12 +122,13 @@ namespace isochor
     prm.declare_entry(
         "Element",
         "P1-P1",
-        dealii::Patterns::Selection(element_selection()),
+        dealii::Patterns::Selection(element_selection() + "|" + automatic_element),
         "Finite element: displacement, then pressure. P: triangles, tetrahedra; Q: "
         "quadrilaterals, hexahedra. P1, P2, P3, Q1, Q2 are displacement elements "
         "(Poisson ratio below 0.5; P1 locks); the others are mixed. P0, and P1 behind "
         "Q2: discontinuous pressure. MINI: P1 and a bubble, with P1. P1-P1s: P1-P1 "
-        "with a stabilised pressure.");
+        "with a stabilised pressure. auto: the cheapest element and mesh size with which the error "
+        "is expected to be below Accuracy; Mesh size (or Cells) is where the search begins.");
     prm.declare_entry("Stabilisation",
                       to_text(compliance.stabilisation),
                       NumberPattern::above(0),
@@ -188,6 +189,11 @@ namespace isochor
         "Of a load step. Newton: displacements and pressures together. dual ascent: "
         "mixed elements; displacements by Newton's method at given pressures, which a "
         "gradient ascent corrects. The result is the same.");
+    prm.declare_entry("Time limit",
+                      "0",
+                      NumberPattern::at_least(0),
+                      "Of a run, s: at the first Newton iteration after it the run ends as not "
+                      "converged, with its last converged state. 0: none.");
     SteppingOptions::declare(prm);
     NewtonOptions::declare(prm);
     DualOptions::declare(prm);
@@ -197,7 +203,17 @@ namespace isochor
   Method Method::parse(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Method");
-    Method method{find_element(prm.get("Element"), "Method/Element"), {}, {}, {}, {}, {}, {}, {}};
+    const std::string element = prm.get("Element");
+    Method            method{element == automatic_element ? element_table().front()
+                                                          : find_element(element, "Method/Element"),
+                  {},
+                  {},
+                  {},
+                  {},
+                  {},
+                  {},
+                  {}};
+    method.chooses_element   = element == automatic_element;
     method.nested_levels     = prm.get_integer("Nested levels");
     method.compliance.lumped = prm.get("Compliance matrix") == lumped;
     method.compliance.stabilisation
@@ -209,6 +225,7 @@ namespace isochor
     method.linear.tangent
         = newton_tangent_names.value(prm.get("Newton tangent"), "Method/Newton tangent");
     method.linear.memory_limit = parse_number(prm.get("Memory limit"), "Method/Memory limit");
+    method.time_limit          = parse_number(prm.get("Time limit"), "Method/Time limit");
     method.stepping.parse(prm);
     method.newton.parse(prm);
     method.solver = solver_names.value(prm.get("Solver"), "Method/Solver");

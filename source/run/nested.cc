@@ -46,6 +46,22 @@ namespace isochor
 
   namespace
   {
+    /// Set @p state to @p from, which belongs to @p other, with the prescribed displacements of @p
+    /// control at the full load.
+    template <int dim>
+    void begin_with(const Discretisation<dim> &other,
+                    const Vector              &from,
+                    const LoadControl<dim>    &control,
+                    Vector                    &state)
+    {
+      const auto scope = control.stopwatch.measure(Phase::setup);
+      interpolate(other, from, control.equilibrium.discretisation(), state);
+      Vector gap(state);
+      control.equilibrium.prescribed().gap(state, 1., gap);
+      state += gap;
+      state.update_ghost_values();
+    }
+
     /// Set @p state to the equilibrium at the full load on the coarser mesh, with the prescribed
     /// displacements of @p fine. False, and a remark, if the coarse mesh has none.
     template <int dim>
@@ -100,12 +116,7 @@ namespace isochor
           return false;
         }
 
-      const auto scope = stopwatch.measure(Phase::setup);
-      interpolate(discretisation, coarse_state, fine.equilibrium.discretisation(), state);
-      Vector gap(state);
-      fine.equilibrium.prescribed().gap(state, 1., gap);
-      state += gap;
-      state.update_ghost_values();
+      begin_with(discretisation, coarse_state, fine, state);
       return true;
     }
 
@@ -144,12 +155,18 @@ namespace isochor
                            const LoadControl<dim> &control,
                            NestedReport           &report,
                            Vector                 &state,
-                           const MarchState       &begin)
+                           const MarchState       &begin,
+                           const SolvedBody<dim>  *solved)
   {
     // A run that was interrupted is past its beginning.
-    if (method.nested_levels > 0 && begin.report.load_steps == 0
-        && begin_coarse(scene, method, control, report, state))
-      return march_from_guess(control, method.stepping, report.remarks, state);
+    if (begin.report.load_steps == 0)
+      {
+        if (solved != nullptr)
+          begin_with(*solved->discretisation, solved->state, control, state);
+        if (solved != nullptr
+            || (method.nested_levels > 0 && begin_coarse(scene, method, control, report, state)))
+          return march_from_guess(control, method.stepping, report.remarks, state);
+      }
     return march_quasi_static(control, method.stepping, state, begin);
   }
 
@@ -160,7 +177,8 @@ namespace isochor
                                                    const LoadControl<dim> &,                       \
                                                    NestedReport &,                                 \
                                                    Vector &,                                       \
-                                                   const MarchState &);
+                                                   const MarchState &,                             \
+                                                   const SolvedBody<dim> *);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -139,6 +139,14 @@ namespace isochor
         add(std::string("spurious modes ") + name,
             *test ? std::to_string((*test)->spurious_modes) : "");
       }
+    if (plan.has_automatic)
+      {
+        const AutomaticReport *const automatic = result.automatic ? &*result.automatic : nullptr;
+        add("auto choice", automatic ? automatic->choice : "");
+        add("auto estimated error", automatic ? optional_number(automatic->estimate) : "");
+        add("auto trials", automatic ? std::to_string(automatic->trials) : "");
+        add("auto seconds chosen", automatic ? csv_number(automatic->seconds_chosen) : "");
+      }
     add("min angle [deg]", csv_number(result.quality.min_angle));
     add("max aspect", csv_number(result.quality.max_aspect));
     add("negative pivots excess",
@@ -212,7 +220,9 @@ namespace isochor
     std::vector<std::vector<std::string>> rows;
     for (std::size_t r = 0; r < plan.runs.size() && r < results.size(); ++r)
       {
-        const RunResult         &result = results[r];
+        const RunResult &result = results[r];
+        if (result.status == left_out)
+          continue;
         std::vector<std::string> row;
         for (const std::string &key : plan.keys)
           row.push_back(plan.runs[r].assignments.at(key));
@@ -237,6 +247,12 @@ namespace isochor
   std::string run_summary(const RunResult &result)
   {
     std::ostringstream out;
+    if (result.automatic)
+      out << result.automatic->table << "estimated error    "
+          << (result.automatic->estimate ? number(100. * *result.automatic->estimate, "%.2g") + " %"
+                                         : "unknown")
+          << ", asked for " << number(100. * result.automatic->accuracy, "%.2g") << " %; "
+          << result.automatic->trials << " runs\n";
     out << "status             " << result.status
         << (result.reason.empty() ? "" : ": " + result.reason) << '\n';
     for (std::size_t k = 0; k < result.probe_columns.size(); ++k)

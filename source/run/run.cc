@@ -129,7 +129,11 @@ namespace isochor
   } // namespace
 
   template <int dim>
-  RunResult run(const Scene<dim> &scene, const Method &method, const RunSettings &settings)
+  RunResult run(const Scene<dim>      &scene,
+                const Method          &method,
+                const RunSettings     &settings,
+                const SolvedBody<dim> *begin,
+                SolvedBody<dim>       *end)
   {
     const MPI_Comm communicator = settings.communicator;
     const bool     talks
@@ -153,13 +157,22 @@ namespace isochor
     };
 
     std::optional<Stopwatch::Scope> setup_scope(std::in_place, stopwatch, Phase::setup);
-    const Discretisation<dim> discretisation(mesh->triangulation, method.element, mesh->geometry);
-    const Equilibrium<dim>    equilibrium(discretisation, scene, boundary_id, method.compliance);
-    const Probes<dim>         probes(discretisation, scene.material, scene.probes, boundary_id);
+    auto                            own_discretisation = std::make_unique<Discretisation<dim>>(
+        mesh->triangulation, method.element, mesh->geometry);
+    const Discretisation<dim> &discretisation = *own_discretisation;
+    const Equilibrium<dim>     equilibrium(discretisation, scene, boundary_id, method.compliance);
+    const Probes<dim>          probes(discretisation, scene.material, scene.probes, boundary_id);
     setup_scope.reset();
     result.cells         = discretisation.n_cells;
     result.unknowns      = discretisation.n_unknowns();
     result.probe_columns = probes.columns();
+    if (settings.most_unknowns > 0 && result.unknowns > settings.most_unknowns)
+      {
+        result.status = left_out;
+        result.reason
+            = std::to_string(result.unknowns) + " unknowns, more than Study/Most unknowns";
+        return result;
+      }
     check_turns(equilibrium, method.stepping.load_steps);
     Vector state = initial_state(scene, equilibrium);
     if (talks)
@@ -207,7 +220,14 @@ namespace isochor
     NestedReport nested = earlier.nested;
     result.dual         = earlier.dual;
     MarchCallbacks callbacks;
-    callbacks.interrupted = [&]() { return interrupted(communicator); };
+    bool           is_late = false;
+    callbacks.interrupted  = [&]() {
+      is_late = is_late
+                || (method.time_limit > 0
+                    && dealii::Utilities::MPI::max(stopwatch.total(), communicator)
+                           > method.time_limit);
+      return interrupted(communicator) || is_late;
+    };
     std::optional<DualAscent<dim>> dual_ascent;
     if (method.solver == Solver::dual_ascent)
       {
@@ -251,7 +271,13 @@ namespace isochor
       print_step_header();
     const LoadControl<dim> control(
         equilibrium, tangent_solver, method.newton, callbacks, stopwatch);
-    result.march = march_nested(scene, method, control, nested, state, earlier.march);
+    result.march = march_nested(scene, method, control, nested, state, earlier.march, begin);
+    if (is_late && result.march.status == RunStatus::interrupted)
+      {
+        result.march.status = RunStatus::not_converged;
+        result.march.reason
+            = "time limit of " + to_text(method.time_limit) + " s: " + result.march.reason;
+      }
     result.coarse_newton_iterations = nested.newton_iterations;
     result.warnings.insert(result.warnings.end(), nested.remarks.begin(), nested.remarks.end());
 
@@ -283,9 +309,18 @@ namespace isochor
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     if (!result.linear.note.empty())
       result.warnings.push_back(result.linear.note);
+    if (end != nullptr && result.converged())
+      *end = {std::move(mesh), std::move(own_discretisation), std::move(state)};
     return result;
   }
 
-  template RunResult run(const Scene<2> &, const Method &, const RunSettings &);
-  template RunResult run(const Scene<3> &, const Method &, const RunSettings &);
+#define INSTANTIATE(dim)                          \
+  template RunResult run(const Scene<dim> &,      \
+                         const Method &,          \
+                         const RunSettings &,     \
+                         const SolvedBody<dim> *, \
+                         SolvedBody<dim> *);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace isochor

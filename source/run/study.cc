@@ -1,3 +1,4 @@
+#include <isochor/run/automatic.h>
 #include <isochor/run/interrupt.h>
 #include <isochor/run/progress.h>
 #include <isochor/run/result_rows.h>
@@ -12,9 +13,6 @@ namespace isochor
   namespace
   {
     namespace fs = std::filesystem;
-
-    /// Status of a run of a study whose input is bad.
-    constexpr const char *refused = "refused";
 
     std::string run_folder_name(const std::size_t index)
     {
@@ -66,6 +64,8 @@ namespace isochor
       settings.inf_sup |= output.inf_sup;
       settings.checkpoint_interval = output.checkpoint_interval;
       settings.identity            = identity_of(prm);
+      if (method.chooses_element)
+        return run_automatic(scene, method, settings, AutomaticOptions::parse(prm));
       return run(scene, method, settings);
     }
 
@@ -125,7 +125,7 @@ namespace isochor
               results[index] = run_one(index);
             if (results[index].status == run_status_names.name(RunStatus::interrupted))
               interrupted_at = done;
-            if (!results[index].converged())
+            if (!results[index].converged() && results[index].status != left_out)
               code = ExitCode::not_converged;
             // A refused run knows no probes; the columns come from one that does.
             if (probe_columns.empty())
@@ -147,7 +147,8 @@ namespace isochor
             {
               ResultsCsv csv_in_order(communicator, ordered);
               for (std::size_t index = 0; index < plan.runs.size(); ++index)
-                csv_in_order.add(row(index));
+                if (results[index].status != left_out)
+                  csv_in_order.add(row(index));
             }
             on_root_collectively(communicator, [&]() { fs::rename(ordered, file); });
           }
@@ -206,6 +207,14 @@ namespace isochor
         settings.restart    = invocation.restart;
         if (plan.is_study())
           {
+            if (plan.runs[index].in_grid)
+              settings.most_unknowns = plan.most_unknowns;
+            if (is_finer_than_left_out(index))
+              {
+                RunResult result;
+                result.status = left_out;
+                return result;
+              }
             on_root_collectively(communicator, [&]() { fs::create_directories(settings.folder); });
           }
         else // a mistake found before leaves no folder behind and removes no older results
@@ -226,6 +235,29 @@ namespace isochor
           }
       }
 
+      /// Saves making a mesh whose size is known beforehand.
+      bool is_finer_than_left_out(const std::size_t index) const
+      {
+        const Assignments own  = plan.runs[index].assignments;
+        const auto        size = own.find("Scene/Mesh size");
+        if (size == own.end() || !plan.runs[index].in_grid)
+          return false;
+        const double edge = dealii::Utilities::string_to_double(size->second);
+        for (std::size_t k = 0; k < results.size(); ++k)
+          if (results[k].status == left_out)
+            {
+              Assignments  other = plan.runs[k].assignments;
+              std::string &value = other.at("Scene/Mesh size");
+              if (dealii::Utilities::string_to_double(value) > edge)
+                {
+                  value = size->second;
+                  if (other == own)
+                    return true;
+                }
+            }
+        return false;
+      }
+
       const RunResult *finished(const std::optional<std::size_t> &index) const
       {
         return index && !results[*index].status.empty() ? &results[*index] : nullptr;
@@ -243,7 +275,7 @@ namespace isochor
                                     finished(plan.runs[index].reference),
                                     finished(plan.runs[index].check),
                                     plan.reference_values);
-            if (kept_rows[index].empty())
+            if (kept_rows[index].empty() && results[index].status != left_out)
               csv->add(row(index));
           }
       }
@@ -284,7 +316,8 @@ namespace isochor
                 for (const std::string &warning : results[k].warnings)
                   std::cout << "warning: " << describe(plan.runs[k].assignments) << ": " << warning
                             << "\n";
-                if (!results[k].status.empty() && !results[k].converged())
+                if (!results[k].status.empty() && !results[k].converged()
+                    && results[k].status != left_out)
                   std::cout << "failed: " << describe(plan.runs[k].assignments) << ": "
                             << results[k].reason << "\n";
               }
@@ -329,6 +362,7 @@ namespace isochor
   {
     Scene<3>::declare(prm);
     Method::declare(prm);
+    AutomaticOptions::declare(prm);
     OutputOptions::declare(prm);
     StudyOptions::declare(prm);
   }

@@ -29,6 +29,13 @@ namespace isochor
                       dealii::Patterns::Anything(),
                       "References known from elsewhere: 'probe = value; ...', in the probe's "
                       "unit, e.g. 'tip y = -0.478'. They go before Reference.");
+    prm.declare_entry(
+        "Most unknowns",
+        "0",
+        dealii::Patterns::Integer(0),
+        "Variations with more unknowns are left out, so that a grid of elements and "
+        "mesh sizes takes each element to meshes that suit it; references are not. 0: "
+        "none is left out. No unit.");
     prm.leave_subsection();
   }
 
@@ -38,7 +45,8 @@ namespace isochor
     const StudyOptions options{prm.get("Title"),
                                prm.get("Reference"),
                                prm.get("Reference check"),
-                               prm.get("Reference values")};
+                               prm.get("Reference values"),
+                               static_cast<unsigned int>(prm.get_integer("Most unknowns"))};
     prm.leave_subsection();
     return options;
   }
@@ -112,7 +120,8 @@ namespace isochor
     const StudyOptions           options    = StudyOptions::parse(prm);
 
     StudyPlan plan;
-    plan.title = options.title.empty() ? file.stem().string() : options.title;
+    plan.most_unknowns = options.most_unknowns;
+    plan.title         = options.title.empty() ? file.stem().string() : options.title;
     for (const Variation &variation : variations)
       plan.keys.push_back(variation.path());
 
@@ -157,6 +166,7 @@ namespace isochor
                 }
             }
         read_parameter_file(plain, file, all);
+        plan.has_automatic |= plain.get({"Method"}, "Element") == automatic_element;
         for (const std::string &path : plan.keys)
           if (assignments.count(path) == 0)
             {

@@ -9,9 +9,12 @@
 
 namespace isochor
 {
+  /// Method/Element of a run whose element is to be chosen; run/automatic.h.
+  inline constexpr const char *automatic_element = "auto";
+
   struct Method
   {
-    Element           element;
+    Element           element; ///< any, if it is to be chosen
     ComplianceOptions compliance;
     LinearOptions     linear;
     NewtonOptions     newton;
@@ -19,6 +22,8 @@ namespace isochor
     unsigned int      nested_levels = 0; ///< coarser meshes that are solved on first
     Solver            solver        = Solver::newton;
     DualOptions       dual;
+    double            time_limit      = 0;     ///< s; 0: none
+    bool              chooses_element = false; ///< Element = auto
 
     static void   declare(dealii::ParameterHandler &prm);
     static Method parse(dealii::ParameterHandler &prm);

@@ -17,6 +17,16 @@ namespace isochor
   /// Throws UserError if the mesh of @p method.nested_levels coarser meshes cannot be named.
   void check_nested(const MeshRequest &request, unsigned int levels);
 
+  /// A body in equilibrium at the full load, which a run on another mesh or with another element may
+  /// begin with.
+  template <int dim>
+  struct SolvedBody
+  {
+    std::unique_ptr<Mesh<dim>>           mesh;
+    std::unique_ptr<Discretisation<dim>> discretisation;
+    Vector                               state;
+  };
+
   struct NestedReport
   {
     unsigned int             newton_iterations = 0; ///< on all coarse meshes
@@ -24,14 +34,16 @@ namespace isochor
     std::vector<std::string> remarks;               ///< what did not work
   };
 
-  /// March to the full load. With @p method.nested_levels it begins with the equilibrium on a mesh of
-  /// twice the edge length, itself begun on coarser ones, and takes one step; where that does not
-  /// work, and if @p begin is past the first step, it is march_quasi_static(). Collective.
+  /// March to the full load. With @p solved it begins with that body's equilibrium, else with @p
+  /// method.nested_levels with the equilibrium on a mesh of twice the edge length, itself begun on
+  /// coarser ones, and takes one step; where that does not work, and if @p begin is past the first
+  /// step, it is march_quasi_static(). Collective.
   template <int dim>
   MarchReport march_nested(const Scene<dim>       &scene,
                            const Method           &method,
                            const LoadControl<dim> &control,
                            NestedReport           &report,
                            Vector                 &state,
-                           const MarchState       &begin);
+                           const MarchState       &begin,
+                           const SolvedBody<dim>  *solved = nullptr);
 } // namespace isochor

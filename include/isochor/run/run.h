@@ -13,10 +13,22 @@
 
 namespace isochor
 {
+  /// What Element = auto has made of a scene; run/automatic.h.
+  struct AutomaticReport
+  {
+    std::string           choice;       ///< element, edge length, strain: in words
+    double                accuracy = 0; ///< relative error that was asked for
+    std::optional<double> estimate;     ///< of the relative error of the result
+    unsigned int          trials = 0;   ///< runs altogether
+    double      seconds_chosen   = 0;   ///< of the run that was chosen, of RunResult::seconds_total
+    std::string table;                  ///< all that was tried and predicted, for the console
+  };
+
   /// One line of results.csv.
   struct RunResult
   {
-    /// MarchReport::status_text(), or "refused" (bad input of one run of a study)
+    /// MarchReport::status_text(); of runs of a study also "refused" (bad input), "left out" (has
+    /// more than RunSettings::most_unknowns)
     std::string status;
     std::string reason; ///< empty if converged
 
@@ -35,12 +47,19 @@ namespace isochor
     std::optional<InfSup>                            inf_sup_at_rest, inf_sup_at_end;
     MeshQuality                                      quality;
     std::vector<std::string>                         warnings; ///< plain words for the user
+    std::optional<AutomaticReport> automatic; ///< of Element = auto: how it was chosen
 
     bool converged() const
     {
       return march.converged();
     }
   };
+
+  /// Status of a run of a study whose input is bad.
+  inline constexpr const char *refused = "refused";
+
+  /// Status of a run that is larger than RunSettings::most_unknowns.
+  inline constexpr const char *left_out = "left out";
 
   struct RunSettings
   {
@@ -51,13 +70,24 @@ namespace isochor
     bool                  inf_sup    = false;       ///< test at rest and in the final state
     bool                  show_steps = false;       ///< a line per load step on std::cout of rank 0
     std::optional<double> checkpoint_interval = 0.; ///< as in OutputOptions
-    bool                  restart  = false; ///< go on from the last saved state, if there is one
-    Identity              identity = {};    ///< the parameters that a saved state depends on
+    /// A larger problem is left out. 0: none is too large.
+    GlobalIndex most_unknowns = 0;
+    bool        restart       = false; ///< go on from the last saved state, if there is one
+    Identity    identity      = {};    ///< the parameters that a saved state depends on
     /// Called when the input has proved good, before anything is written. Collective.
     std::function<void()> before_output = [] {};
   };
 
-  /// Throws UserError on every rank for what the user must mend. Collective.
   template <int dim>
-  RunResult run(const Scene<dim> &scene, const Method &method, const RunSettings &settings);
+  struct SolvedBody; // run/nested.h
+
+  /// Throws UserError on every rank for what the user must mend. With @p begin it begins with that
+  /// equilibrium, whatever mesh and element it is on; if it converges, @p end (which may be the same)
+  /// becomes what was solved. Collective.
+  template <int dim>
+  RunResult run(const Scene<dim>      &scene,
+                const Method          &method,
+                const RunSettings     &settings,
+                const SolvedBody<dim> *begin = nullptr,
+                SolvedBody<dim>       *end   = nullptr);
 } // namespace isochor

@@ -18,6 +18,8 @@ namespace isochor
     std::string reference_check;
     /// "probe column = value; ...": references known from elsewhere.
     std::string reference_values;
+    /// Larger runs of the grid are left out; 0: none.
+    unsigned int most_unknowns = 0;
 
     static void         declare(dealii::ParameterHandler &prm);
     static StudyOptions parse(dealii::ParameterHandler &prm);
@@ -43,6 +45,8 @@ namespace isochor
     std::vector<std::size_t>      order;
     std::map<std::string, double> reference_values; ///< by probe column name
     std::string                   title;
+    bool                          has_automatic = false; ///< a run with Element = auto
+    unsigned int                  most_unknowns = 0;     ///< of a run of the grid; 0: no limit
 
     bool is_study() const
     {

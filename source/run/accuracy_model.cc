@@ -1,0 +1,78 @@
+#include <isochor/run/accuracy_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isochor
+{
+  double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double difference = 0, size = 0;
+    for (std::size_t k = 0; k < b.size(); ++k)
+      {
+        difference += (a[k] - b[k]) * (a[k] - b[k]);
+        size += b[k] * b[k];
+      }
+    if (!(difference > 0))
+      return 0;
+    return size > 0 ? std::sqrt(difference / size) : std::numeric_limits<double>::infinity();
+  }
+
+  double trusted_order(const unsigned int degree)
+  {
+    return degree == 1 ? 1. : 1.5;
+  }
+
+  double edge_ratio(const Trial &coarse, const Trial &fine, const unsigned int dim)
+  {
+    return std::pow(fine.unknowns / coarse.unknowns, 1. / dim);
+  }
+
+  double error_by_refinement(const Trial       *coarsest,
+                             const Trial       &coarse,
+                             const Trial       &fine,
+                             const unsigned int dim)
+  {
+    const double ratio = edge_ratio(coarse, fine, dim);
+    if (!(ratio > 1.))
+      return std::numeric_limits<double>::infinity();
+    double       order  = trusted_order(fine.degree);
+    const double change = relative_difference(coarse.values, fine.values);
+    const double best   = fine.degree + 1.;
+    double       least  = 0; // no smaller than the best order lets the error become
+    if (coarsest != nullptr)
+      {
+        const double before       = relative_difference(coarsest->values, coarse.values);
+        const double ratio_before = edge_ratio(*coarsest, coarse, dim);
+        if (ratio_before > 1. && before > 0)
+          {
+            // Differences fall as the order says: e(h) = C h^q gives before / change.
+            const double seen = std::log(before / std::max(change, 1e-300))
+                                / std::log(std::sqrt(ratio_before * ratio));
+            order = std::clamp(seen, 1., best);
+            least = before / (std::pow(ratio_before, best) - 1.) / std::pow(ratio, best);
+          }
+      }
+    return std::max(change / (std::pow(ratio, order) - 1.), least);
+  }
+
+  double growth_of_unknowns(const Trial &coarse, const Trial &fine, const unsigned int dim)
+  {
+    const double growth
+        = std::log(fine.unknowns / coarse.unknowns) / std::log(fine.refinement / coarse.refinement);
+    return std::clamp(growth, 1., static_cast<double>(dim));
+  }
+
+  Prediction
+  predict(const Trial &trial, const double error, const double accuracy, const double growth)
+  {
+    const double finer = std::max(1., std::pow(error / accuracy, 1. / trusted_order(trial.degree)));
+    Prediction   prediction;
+    prediction.refinement = trial.refinement * finer;
+    prediction.unknowns   = trial.unknowns * std::pow(finer, growth);
+    prediction.error      = std::min(error, accuracy);
+    prediction.seconds    = trial.seconds * std::pow(prediction.unknowns / trial.unknowns, 1.4);
+    return prediction;
+  }
+} // namespace isochor

@@ -1,0 +1,266 @@
+#include "trials.h"
+
+#include <isochor/core/text.h>
+#include <isochor/mesh/geo_constant.h>
+
+#include <algorithm>
+
+namespace isochor
+{
+  namespace
+  {
+    /// Edge length of the scene's mesh over that of the first pilots'; one that fails is followed by
+    /// finer ones, up to the scene's own.
+    constexpr double coarsest = 0.25, finest_pilot = 1.;
+    /// Refinement of the second pilot, and bounds of that of a run which a prediction asks for.
+    constexpr double pilot_step = 2., largest_step = 2., smallest_step = 1.25;
+    /// Part of the accuracy that a prediction aims at: no mesh is quite what was asked for.
+    constexpr double       aim              = 0.8;
+    constexpr unsigned int most_refinements = 5;
+    /// Another element is tried if the next run is expected to cost this many times what the last did.
+    constexpr double dear = 6.;
+    /// Small strain is good enough if it changes the probe by less than this part of the accuracy.
+    constexpr double small_strain_share = 0.25;
+
+    template <int dim>
+    class Search
+    {
+    public:
+      explicit Search(Trials<dim> &trials)
+        : trials(trials)
+        , accuracy(trials.options.accuracy)
+      {
+      }
+
+      /// Number of the run to choose; the last one, if that has not converged.
+      std::size_t find()
+      {
+        if (const auto last = pilots())
+          return refine(*last);
+        return trials.size() - 1;
+      }
+
+    private:
+      /// Stable mixed elements that @p condition holds for, on cells that the mesh can have.
+      template <typename Condition>
+      std::vector<const Element *> stable_elements(const Condition &condition) const
+      {
+        std::vector<const Element *> found;
+        for (const Element &element : element_table())
+          if (element.is_mixed() && element.is_stable && condition(element)
+              && (element.kind == CellKind::simplex || offers_hypercubes(trials.scene.mesh)))
+            found.push_back(&element);
+        return found;
+      }
+
+      /// Runs on coarse meshes. Number of the last one, of the element to go on with; none if no run
+      /// has converged.
+      std::optional<std::size_t> pilots()
+      {
+        const auto leads = stable_elements(
+            [](const Element &element) { return element.displacement.degree == 2; });
+        std::vector<std::size_t> first;
+        double                   refinement = coarsest;
+        for (; refinement <= finest_pilot && first.empty(); refinement *= pilot_step)
+          for (const Element *element : leads)
+            {
+              const std::size_t k = trials.make({element, refinement});
+              if (trials[k].converged())
+                first.push_back(k);
+              else if (!can_go_on(k))
+                return {};
+            }
+        if (first.empty())
+          return {};
+        const std::size_t cheapest = *std::ranges::min_element(
+            first, {}, [&](const std::size_t k) { return trials[k].trial.seconds; });
+        for (const std::size_t k : first)
+          trials[k].verdict
+              = k == cheapest ? "pilot" : "rejected: dearer than " + trials[cheapest].trial.element;
+        choose_strain(cheapest);
+        const std::size_t second
+            = trials.make({trials[cheapest].element, refinement, small_strain});
+        if (trials[second].converged())
+          return second;
+        return cheapest;
+      }
+
+      /// A mesh too coarse may fail; what the user has stopped or only wants checked is no failure.
+      bool can_go_on(const std::size_t k) const
+      {
+        return trials[k].result.status == refused
+               || trials[k].result.status == run_status_names.name(RunStatus::not_converged);
+      }
+
+      void choose_strain(const std::size_t finite)
+      {
+        const Energy energy = trials.scene.material.energy;
+        if (energy == Energy::linear || energy == Energy::linear_as_printed
+            || trials.scene.material.kappa != KappaConvention::consistent)
+          return;
+        const std::size_t small
+            = trials.make({trials[finite].element, trials[finite].trial.refinement, true, false});
+        if (!trials[small].converged())
+          return;
+        const double change
+            = relative_difference(trials[small].trial.values, trials[finite].trial.values);
+        small_strain          = change < small_strain_share * accuracy;
+        trials[small].verdict = (small_strain ? "pilot: finite strain changes the probe by "
+                                              : "rejected: finite strain changes the probe by ")
+                                + percent(change);
+      }
+
+      /// From run @p best on until its estimate is what is asked for.
+      std::size_t refine(std::size_t best)
+      {
+        trials.estimate(best);
+        for (unsigned int n = 0; n < most_refinements; ++n)
+          {
+            if (trials[best].estimate && *trials[best].estimate <= accuracy)
+              break;
+            if (const auto other = try_others(best))
+              best = *other;
+            const std::size_t finer = trials.make(next_wish(best));
+            if (!trials[finer].converged())
+              break;
+            trials[best].verdict = "pilot";
+            trials.estimate(finer);
+            best = finer;
+          }
+        return best;
+      }
+
+      Prediction predicted(const std::size_t k, const double growth) const
+      {
+        const Attempt &attempt = trials[k];
+        return predict(attempt.trial, attempt.estimate.value_or(1.), aim * accuracy, growth);
+      }
+
+      typename Trials<dim>::Wish next_wish(const std::size_t k) const
+      {
+        const Trial &now  = trials[k].trial;
+        const double step = predicted(k, dim).refinement / now.refinement;
+        return {trials[k].element,
+                now.refinement * std::clamp(step, smallest_step, largest_step),
+                small_strain};
+      }
+
+      /// Before a dear run: other elements on meshes of about as many unknowns as run @p best has.
+      /// Number of the one that promises the accuracy for less, if there is one.
+      std::optional<std::size_t> try_others(const std::size_t best)
+      {
+        if (has_tried_others || !trials[best].estimate)
+          return {};
+        const double growth   = trials.growth(best);
+        Prediction   cheapest = predicted(best, growth);
+        if (cheapest.seconds < dear * trials[best].trial.seconds)
+          return {};
+        has_tried_others = true;
+
+        const Attempt              lead  = trials[best];
+        const std::vector<double>  limit = extrapolated(best);
+        std::optional<std::size_t> found;
+        const auto                 others = stable_elements([&](const Element &element) {
+          return element.kind == lead.element->kind && !element.has_bubble()
+                 && element.displacement.degree != lead.element->displacement.degree;
+        });
+        for (const Element *element : others)
+          {
+            const double      degree = element->displacement.degree;
+            const std::size_t k      = trials.make(
+                {element, lead.trial.refinement * lead.trial.degree / degree, small_strain, false});
+            if (!trials[k].converged())
+              continue;
+            trials[k].estimate = relative_difference(trials[k].trial.values, limit)
+                                 + 0.25 * lead.estimate.value_or(1.);
+            const Prediction prediction = predicted(k, growth);
+            trials[k].verdict = "rejected: would take " + to_text_short(prediction.seconds) + " s, "
+                                + lead.trial.element + " "
+                                + to_text_short(predicted(best, growth).seconds);
+            if (prediction.seconds < cheapest.seconds)
+              {
+                cheapest          = prediction;
+                found             = k;
+                trials[k].verdict = "pilot";
+              }
+          }
+        return found;
+      }
+
+      /// Where the values of run @p fine and the coarser one point to.
+      std::vector<double> extrapolated(const std::size_t fine) const
+      {
+        std::vector<double> limit = trials[fine].trial.values;
+        if (const auto coarse = trials.coarser_than(fine))
+          {
+            const double change
+                = relative_difference(trials[*coarse].trial.values, trials[fine].trial.values);
+            const double share = change > 0 ? *trials[fine].estimate / change : 0.;
+            for (std::size_t c = 0; c < limit.size(); ++c)
+              limit[c] += share * (limit[c] - trials[*coarse].trial.values[c]);
+          }
+        return limit;
+      }
+
+      static std::string to_text_short(const double value)
+      {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.2g", value);
+        return text;
+      }
+
+      Trials<dim> &trials;
+      const double accuracy;
+      bool         small_strain = false, has_tried_others = false;
+    };
+  } // namespace
+
+  void AutomaticOptions::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Method");
+    prm.declare_entry("Accuracy",
+                      "1%",
+                      dealii::Patterns::Anything(),
+                      "Element = auto: relative error of the probe that is allowed, a number or a "
+                      "percentage, above 0 and below 1. No unit.");
+    prm.declare_entry("Accuracy of",
+                      "",
+                      dealii::Patterns::Anything(),
+                      "Element = auto: name of the probe that must be that accurate. Empty: the "
+                      "first one in Scene/Probes.");
+    prm.leave_subsection();
+  }
+
+  AutomaticOptions AutomaticOptions::parse(dealii::ParameterHandler &prm)
+  {
+    AutomaticOptions options;
+    prm.enter_subsection("Method");
+    const std::string written = trim(prm.get("Accuracy")), what = "Method/Accuracy";
+    const bool        is_percentage = written.ends_with('%');
+    options.accuracy = parse_number(trim(written.substr(0, written.size() - is_percentage)), what)
+                       * (is_percentage ? 0.01 : 1.);
+    if (!(options.accuracy > 0 && options.accuracy < 1))
+      throw UserError(what + ": '" + written
+                      + "' is not allowed; choose a number or a percentage above 0 and below 1, as "
+                        "0.01 or 1%");
+    options.probe = trim(prm.get("Accuracy of"));
+    prm.leave_subsection();
+    return options;
+  }
+
+  template <int dim>
+  RunResult run_automatic(const Scene<dim>       &scene,
+                          const Method           &method,
+                          const RunSettings      &settings,
+                          const AutomaticOptions &options)
+  {
+    Trials<dim>       trials(scene, method, settings, options);
+    const std::size_t chosen = Search<dim>(trials).find();
+    return trials.finish(chosen);
+  }
+
+  template RunResult
+  run_automatic(const Scene<2> &, const Method &, const RunSettings &, const AutomaticOptions &);
+  template RunResult
+  run_automatic(const Scene<3> &, const Method &, const RunSettings &, const AutomaticOptions &);
+} // namespace isochor

@@ -1,0 +1,292 @@
+#include "trials.h"
+
+#include <isochor/core/text.h>
+#include <isochor/mesh/generator.h>
+#include <isochor/mesh/geo_constant.h>
+#include <isochor/output/results_csv.h>
+#include <isochor/output/table.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace isochor
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    MeshRequest refined(MeshRequest request, const double refinement)
+    {
+      if (const auto size = edge_length(request))
+        request.size = *size / refinement;
+      for (unsigned int &blocks : request.cells)
+        blocks = std::max(1l, std::lround(blocks * refinement));
+      return request;
+    }
+
+    std::string values_text(const Trial &trial)
+    {
+      std::string text;
+      for (const double value : trial.values)
+        text += (text.empty() ? "" : " ") + csv_number(value);
+      return text;
+    }
+
+    template <int dim>
+    void check(const Scene<dim> &scene, const AutomaticOptions &options)
+    {
+      if (!is_generator(scene.mesh.source) && !edge_length(scene.mesh))
+        throw UserError(
+            "Method/Element: auto chooses the mesh size, too, and '" + scene.mesh.source
+            + "' has one mesh only; allowed: a generator, or a .geo file with a constant "
+              "'size' or a Scene/Mesh size");
+      std::vector<std::string> names;
+      for (const auto &probe : scene.probes)
+        names.push_back(probe.name);
+      if (names.empty())
+        throw UserError(
+            "Method/Element: auto needs a figure that must be accurate; allowed: at least "
+            "one entry in Scene/Probes");
+      if (!options.probe.empty() && std::ranges::find(names, options.probe) == names.end())
+        throw UserError("Method/Accuracy of: no probe is named '" + options.probe
+                        + "'; this scene has " + listed(names));
+    }
+  } // namespace
+
+  std::string percent(const double value)
+  {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100. * value);
+    return text;
+  }
+
+  template <int dim>
+  Trials<dim>::Trials(const Scene<dim>       &scene,
+                      const Method           &method,
+                      const RunSettings      &settings,
+                      const AutomaticOptions &options)
+    : scene(scene)
+    , options(options)
+    , method(method)
+    , settings(settings)
+  {
+    check(scene, options);
+  }
+
+  template <int dim>
+  std::size_t Trials<dim>::make(const Wish &wish)
+  {
+    Scene<dim> run_scene = scene;
+    run_scene.mesh       = refined(scene.mesh, wish.refinement);
+    if (wish.small_strain)
+      {
+        run_scene.material.energy            = Energy::linear;
+        run_scene.material.volumetric_strain = VolumetricStrain::trace;
+      }
+    Method run_method        = method;
+    run_method.element       = *wish.element;
+    run_method.nested_levels = 0;
+
+    RunSettings run_settings = settings;
+    run_settings.folder      = folder_of(attempts.size());
+    run_settings.vtu         = std::min(settings.vtu, VtuOutput::final_state);
+    run_settings.show_steps  = false;
+    run_settings.restart     = false;
+    run_settings.checkpoint_interval.reset();
+    run_settings.before_output = [&]() {
+      if (!has_folder)
+        settings.before_output();
+      has_folder = true;
+      on_root_collectively(settings.communicator,
+                           [&]() { fs::create_directories(run_settings.folder); });
+    };
+
+    Attempt attempt;
+    attempt.trial.element    = wish.element->name;
+    attempt.trial.degree     = wish.element->displacement.degree;
+    attempt.trial.refinement = wish.refinement;
+    attempt.element          = wish.element;
+    attempt.small_strain     = wish.small_strain;
+    attempt.words            = words(wish);
+    try
+      {
+        attempt.result = run(run_scene,
+                             run_method,
+                             run_settings,
+                             body.mesh ? &body : nullptr,
+                             wish.is_kept ? &body : nullptr);
+      }
+    catch (const UserError &error)
+      {
+        if (!refusal)
+          refusal = error;
+        attempt.result.status = refused;
+        attempt.result.reason = error.what();
+      }
+    attempt.trial.unknowns = attempt.result.unknowns;
+    attempt.trial.seconds  = attempt.result.seconds_total;
+    if (attempt.converged())
+      attempt.trial.values = values_of(attempt.result);
+    else
+      attempt.verdict = attempt.result.status + ": " + attempt.result.reason;
+    attempts.push_back(std::move(attempt));
+    const Attempt &made = attempts.back();
+    if (settings.show_steps && dealii::Utilities::MPI::this_mpi_process(settings.communicator) == 0)
+      std::cout << "  tried " << made.words << ": " << made.result.unknowns << " unknowns, "
+                << to_text(std::round(1e3 * made.trial.seconds) / 1e3) << " s, "
+                << made.result.status << std::endl;
+    return attempts.size() - 1;
+  }
+
+  template <int dim>
+  std::optional<std::size_t> Trials<dim>::coarser_than(const std::size_t fine) const
+  {
+    std::optional<std::size_t> found;
+    for (std::size_t k = 0; k < attempts.size(); ++k)
+      if (attempts[k].element == attempts[fine].element && attempts[k].converged()
+          && attempts[k].small_strain == attempts[fine].small_strain
+          && attempts[k].trial.refinement < attempts[fine].trial.refinement
+          && (!found || attempts[k].trial.refinement > attempts[*found].trial.refinement))
+        found = k;
+    return found;
+  }
+
+  template <int dim>
+  void Trials<dim>::estimate(const std::size_t fine)
+  {
+    const auto coarse = coarser_than(fine);
+    if (!coarse)
+      return;
+    const auto coarsest     = coarser_than(*coarse);
+    attempts[fine].estimate = error_by_refinement(coarsest ? &attempts[*coarsest].trial : nullptr,
+                                                  attempts[*coarse].trial,
+                                                  attempts[fine].trial,
+                                                  dim);
+  }
+
+  template <int dim>
+  double Trials<dim>::growth(const std::size_t fine) const
+  {
+    const auto coarse = coarser_than(fine);
+    return coarse ? growth_of_unknowns(attempts[*coarse].trial, attempts[fine].trial, dim) : dim;
+  }
+
+  template <int dim>
+  std::vector<double> Trials<dim>::values_of(const RunResult &result) const
+  {
+    const std::string  &name = options.probe.empty() ? scene.probes.front().name : options.probe;
+    std::vector<double> values;
+    for (std::size_t k = 0; k < result.probe_columns.size(); ++k)
+      if (const std::string &column = result.probe_columns[k].name;
+          column == name || column.starts_with(name + " "))
+        values.push_back(result.probe_values[k]);
+    return values;
+  }
+
+  template <int dim>
+  std::string Trials<dim>::words(const Wish &wish) const
+  {
+    const MeshRequest mesh = refined(scene.mesh, wish.refinement);
+    std::string       text(wish.element->name);
+    if (mesh.cells.empty())
+      {
+        char size[32];
+        std::snprintf(size, sizeof size, "%.3g", mesh.size);
+        text += ", mesh size " + std::string(size) + " m";
+      }
+    else
+      text += ", cells";
+    for (const unsigned int blocks : mesh.cells)
+      text += " " + std::to_string(blocks);
+    return text + (wish.small_strain ? ", small strain" : "");
+  }
+
+  template <int dim>
+  fs::path Trials<dim>::folder_of(const std::size_t k) const
+  {
+    return settings.folder / ("trial_" + std::to_string(k + 1));
+  }
+
+  template <int dim>
+  RunResult Trials<dim>::finish(const std::size_t chosen)
+  {
+    if (attempts[chosen].result.status == refused)
+      throw UserError(*refusal);
+    Attempt &attempt = attempts[chosen];
+    if (attempt.verdict.empty())
+      attempt.verdict = "chosen";
+    RunResult       result = attempt.result;
+    AutomaticReport report;
+    report.choice         = attempt.words;
+    report.accuracy       = options.accuracy;
+    report.estimate       = attempt.estimate;
+    report.trials         = attempts.size();
+    report.seconds_chosen = result.seconds_total;
+    report.table          = table(chosen);
+    result.seconds_total  = 0;
+    for (const Attempt &other : attempts)
+      result.seconds_total += other.result.seconds_total;
+    if (result.converged() && !(attempt.estimate && *attempt.estimate <= options.accuracy))
+      result.warnings.push_back(
+          "the accuracy of " + percent(options.accuracy)
+          + " is not reached: the error is estimated "
+          + (attempt.estimate ? "as " + percent(*attempt.estimate) : "by nothing")
+          + "; begin with a smaller Scene/Mesh size (or more Cells), or allow a larger error");
+    result.automatic = report;
+    if (has_folder)
+      {
+        write_table();
+        on_root_collectively(settings.communicator, [&]() {
+          for (const auto &file : fs::directory_iterator(folder_of(chosen)))
+            fs::rename(file.path(), settings.folder / file.path().filename());
+          for (std::size_t k = 0; k < attempts.size(); ++k)
+            fs::remove_all(folder_of(k));
+        });
+      }
+    return result;
+  }
+
+  template <int dim>
+  std::string Trials<dim>::table(const std::size_t chosen) const
+  {
+    const auto probe = options.probe.empty() ? scene.probes.front().name : options.probe;
+    std::vector<std::vector<std::string>> rows;
+    for (const Attempt &attempt : attempts)
+      {
+        rows.push_back({attempt.words,
+                        std::to_string(attempt.result.unknowns),
+                        csv_number(attempt.trial.seconds),
+                        values_text(attempt.trial),
+                        attempt.estimate ? percent(*attempt.estimate) : "",
+                        attempt.verdict});
+      }
+    return format_table(
+               {"tried", "unknowns", "seconds", probe, "estimated error", "verdict"}, rows, 70)
+           + "chosen: " + attempts[chosen].words + "\n";
+  }
+
+  template <int dim>
+  void Trials<dim>::write_table() const
+  {
+    ResultsCsv csv(settings.communicator, settings.folder / "automatic.csv");
+    for (const Attempt &attempt : attempts)
+      {
+        ResultRow row
+            = {{"element", attempt.trial.element},
+               {"refinement", csv_number(attempt.trial.refinement)},
+               {"strain", attempt.small_strain ? "small" : "finite"},
+               {"run", attempt.words},
+               {"unknowns", std::to_string(attempt.result.unknowns)},
+               {"newton iterations", std::to_string(attempt.result.march.newton_iterations)},
+               {"seconds", csv_number(attempt.trial.seconds)}};
+        row.emplace_back("values", values_text(attempt.trial));
+        row.emplace_back("estimated error", attempt.estimate ? csv_number(*attempt.estimate) : "");
+        row.emplace_back("verdict", attempt.verdict);
+        csv.add(row);
+      }
+  }
+
+  template class Trials<2>;
+  template class Trials<3>;
+} // namespace isochor

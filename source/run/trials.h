@@ -1,0 +1,96 @@
+#pragma once
+
+// The runs that Element = auto makes of one scene, and what is known of each.
+
+#include <isochor/run/accuracy_model.h>
+#include <isochor/run/automatic.h>
+#include <isochor/run/nested.h>
+
+namespace isochor
+{
+  /// One run, and what is thought of it.
+  struct Attempt
+  {
+    Trial                 trial;
+    const Element        *element      = nullptr;
+    bool                  small_strain = false;
+    RunResult             result;
+    std::string           words;    ///< element, edge length or blocks, strain
+    std::optional<double> estimate; ///< relative error of the probe
+    std::string           verdict;
+
+    bool converged() const
+    {
+      return result.converged();
+    }
+  };
+
+  /// Makes runs. Each begins with the last equilibrium that is kept, interpolated.
+  template <int dim>
+  class Trials
+  {
+  public:
+    /// Throws UserError for a mesh that cannot be refined or a probe that is not there.
+    Trials(const Scene<dim>       &scene,
+           const Method           &method,
+           const RunSettings      &settings,
+           const AutomaticOptions &options);
+
+    /// What is wanted of a run.
+    struct Wish
+    {
+      const Element *element      = nullptr;
+      double         refinement   = 1; ///< edge length of the scene's mesh / that of the run
+      bool           small_strain = false;
+      bool           is_kept      = true; ///< the next runs begin with its equilibrium
+    };
+
+    /// Number of the new attempt. Collective.
+    std::size_t make(const Wish &wish);
+
+    const Attempt &operator[](const std::size_t k) const
+    {
+      return attempts[k];
+    }
+    Attempt &operator[](const std::size_t k)
+    {
+      return attempts[k];
+    }
+    std::size_t size() const
+    {
+      return attempts.size();
+    }
+
+    /// The finest converged run of the element and strain of run @p fine on a coarser mesh.
+    std::optional<std::size_t> coarser_than(std::size_t fine) const;
+
+    /// Estimates the error of run @p fine from the coarser ones, if there are any.
+    void estimate(std::size_t fine);
+
+    /// Exponent of the unknowns in the refinement, up to run @p fine.
+    double growth(std::size_t fine) const;
+
+    /// The result of Element = auto if run @p chosen is it: files in place, automatic.csv written.
+    RunResult finish(std::size_t chosen);
+
+    const Scene<dim>       scene;
+    const AutomaticOptions options;
+
+  private:
+    std::string           words(const Wish &wish) const;
+    std::vector<double>   values_of(const RunResult &result) const;
+    std::filesystem::path folder_of(std::size_t k) const;
+    void                  write_table() const;
+    std::string           table(std::size_t chosen) const;
+
+    const Method             method;
+    const RunSettings        settings;
+    std::vector<Attempt>     attempts;
+    SolvedBody<dim>          body; ///< what the next run begins with
+    bool                     has_folder = false;
+    std::optional<UserError> refusal; ///< the first
+  };
+
+  /// "1.2 %"
+  std::string percent(double value);
+} // namespace isochor
