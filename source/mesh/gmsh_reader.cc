@@ -298,7 +298,8 @@ namespace isochor
             {
               gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
               gmsh::model::mesh::setOrder(2);
-              untangle();
+              if (request.kind == CellKind::simplex) // of hexahedra it takes long
+                untangle();
             }
         });
       }

@@ -24,6 +24,11 @@ namespace isochor
     return degree == 1 ? 1. : 1.5;
   }
 
+  double hoped_order(const unsigned int degree)
+  {
+    return degree == 1 ? 1.5 : 2.;
+  }
+
   double edge_ratio(const Trial &coarse, const Trial &fine, const unsigned int dim)
   {
     return std::pow(fine.unknowns / coarse.unknowns, 1. / dim);
@@ -67,7 +72,7 @@ namespace isochor
   Prediction
   predict(const Trial &trial, const double error, const double accuracy, const double growth)
   {
-    const double finer = std::max(1., std::pow(error / accuracy, 1. / trusted_order(trial.degree)));
+    const double finer = std::max(1., std::pow(error / accuracy, 1. / hoped_order(trial.degree)));
     Prediction   prediction;
     prediction.refinement = trial.refinement * finer;
     prediction.unknowns   = trial.unknowns * std::pow(finer, growth);

@@ -1,6 +1,7 @@
 #include "trials.h"
 
 #include <isochor/core/text.h>
+#include <isochor/mesh/generator.h>
 #include <isochor/mesh/geo_constant.h>
 
 #include <algorithm>
@@ -9,11 +10,18 @@ namespace isochor
 {
   namespace
   {
-    /// Edge length of the scene's mesh over that of the first pilots'; one that fails is followed by
-    /// finer ones, up to the scene's own.
-    constexpr double coarsest = 0.25, finest_pilot = 1.;
-    /// Refinement of the second pilot, and bounds of that of a run which a prediction asks for.
-    constexpr double pilot_step = 2., largest_step = 2., smallest_step = 1.25;
+    /// Edge length of the scene's mesh over that of the first pilots', of a generator's body and of
+    /// one whose shape a coarse mesh spoils; a pilot that fails is followed by finer ones, up to the
+    /// scene's own mesh.
+    constexpr double coarsest_generated = 0.125, coarsest_meshed = 0.25, finest_pilot = 1.;
+    /// From pilot to pilot, and bounds of what a prediction asks for.
+    constexpr double pilot_step = 1.5, largest_step = 2., smallest_step = 1.25;
+    /// A pilot that takes longer than this many times the one before is given up.
+    constexpr double patience = 3.;
+    /// Part of a run's seconds from which on its mesh is what is dear about it.
+    constexpr double mesh_share = 0.5;
+    /// Of the body's size: with larger displacements small strain is not even tried.
+    constexpr double small_displacement = 0.05;
     /// Part of the accuracy that a prediction aims at: no mesh is quite what was asked for.
     constexpr double       aim              = 0.8;
     constexpr unsigned int most_refinements = 5;
@@ -57,32 +65,55 @@ namespace isochor
       /// has converged.
       std::optional<std::size_t> pilots()
       {
-        const auto leads = stable_elements(
+        auto leads = stable_elements(
             [](const Element &element) { return element.displacement.degree == 2; });
-        std::vector<std::size_t> first;
-        double                   refinement = coarsest;
-        for (; refinement <= finest_pilot && first.empty(); refinement *= pilot_step)
+        // Hexahedra first: of equal cost they are the more accurate ones.
+        std::ranges::stable_partition(
+            leads, [](const Element *element) { return element->kind == CellKind::hypercube; });
+        std::optional<std::size_t> first;
+        double                     refinement
+            = is_generator(trials.scene.mesh.source) ? coarsest_generated : coarsest_meshed;
+        for (; refinement <= finest_pilot && !first; refinement *= pilot_step)
           for (const Element *element : leads)
             {
-              const std::size_t k = trials.make({element, refinement});
-              if (trials[k].converged())
-                first.push_back(k);
-              else if (!can_go_on(k))
+              if (first && !is_mesh_dear(*first))
+                break;
+              const std::size_t k
+                  = trials.make({element,
+                                 refinement,
+                                 false,
+                                 true,
+                                 first ? patience * trials[*first].trial.seconds : 0.});
+              if (!trials[k].converged() && !can_go_on(k))
                 return {};
+              if (trials[k].converged() && first)
+                first = cheaper(*first, k);
+              else if (trials[k].converged())
+                first = k;
             }
-        if (first.empty())
+        if (!first)
           return {};
-        const std::size_t cheapest = *std::ranges::min_element(
-            first, {}, [&](const std::size_t k) { return trials[k].trial.seconds; });
-        for (const std::size_t k : first)
-          trials[k].verdict
-              = k == cheapest ? "pilot" : "rejected: dearer than " + trials[cheapest].trial.element;
-        choose_strain(cheapest);
-        const std::size_t second
-            = trials.make({trials[cheapest].element, refinement, small_strain});
-        if (trials[second].converged())
-          return second;
-        return cheapest;
+        trials[*first].verdict = "pilot";
+        choose_strain(*first);
+        const std::size_t second = trials.make({trials[*first].element, refinement, small_strain});
+        if (!can_go_on(second) && !trials[second].converged())
+          return {};
+        return trials[second].converged() ? second : *first;
+      }
+
+      bool is_mesh_dear(const std::size_t k) const
+      {
+        const RunResult &result = trials[k].result;
+        return result.seconds[static_cast<std::size_t>(Phase::mesh)]
+               > mesh_share * result.seconds_total;
+      }
+
+      std::size_t cheaper(const std::size_t a, const std::size_t b)
+      {
+        const bool        is_a = trials[a].trial.seconds <= trials[b].trial.seconds;
+        const std::size_t best = is_a ? a : b, other = is_a ? b : a;
+        trials[other].verdict = "rejected: dearer than " + trials[best].trial.element;
+        return best;
       }
 
       /// A mesh too coarse may fail; what the user has stopped or only wants checked is no failure.
@@ -96,7 +127,8 @@ namespace isochor
       {
         const Energy energy = trials.scene.material.energy;
         if (energy == Energy::linear || energy == Energy::linear_as_printed
-            || trials.scene.material.kappa != KappaConvention::consistent)
+            || trials.scene.material.kappa != KappaConvention::consistent
+            || trials.largest_displacement() > small_displacement)
           return;
         const std::size_t small
             = trials.make({trials[finite].element, trials[finite].trial.refinement, true, false});

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 namespace isochor
 {
@@ -87,6 +88,8 @@ namespace isochor
     Method run_method        = method;
     run_method.element       = *wish.element;
     run_method.nested_levels = 0;
+    if (wish.time_limit > 0)
+      run_method.time_limit = wish.time_limit;
 
     RunSettings run_settings = settings;
     run_settings.folder      = folder_of(attempts.size());
@@ -163,6 +166,35 @@ namespace isochor
                                                   attempts[*coarse].trial,
                                                   attempts[fine].trial,
                                                   dim);
+  }
+
+  template <int dim>
+  double Trials<dim>::largest_displacement() const
+  {
+    if (!body.mesh)
+      return 0;
+    const Discretisation<dim> &discretisation = *body.discretisation;
+    double                     largest        = 0;
+    for (LocalIndex i = 0; i < discretisation.n_owned_displacements; i += dim)
+      {
+        double squared = 0;
+        for (unsigned int c = 0; c < dim; ++c)
+          squared += std::pow(body.state.local_element(i + c), 2);
+        largest = std::max(largest, squared);
+      }
+    std::vector<double> extent(2 * dim, -std::numeric_limits<double>::max());
+    for (const auto &point : discretisation.cells.geometry)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          extent[d]       = std::max(extent[d], point[d]);
+          extent[dim + d] = std::max(extent[dim + d], -point[d]);
+        }
+    extent.push_back(largest);
+    dealii::Utilities::MPI::max(extent, settings.communicator, extent);
+    double diagonal = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      diagonal += std::pow(extent[d] + extent[dim + d], 2);
+    return std::sqrt(extent.back() / diagonal);
   }
 
   template <int dim>

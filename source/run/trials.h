@@ -43,6 +43,7 @@ namespace isochor
       double         refinement   = 1; ///< edge length of the scene's mesh / that of the run
       bool           small_strain = false;
       bool           is_kept      = true; ///< the next runs begin with its equilibrium
+      double         time_limit   = 0;    ///< s; 0: the method's
     };
 
     /// Number of the new attempt. Collective.
@@ -69,6 +70,10 @@ namespace isochor
 
     /// Exponent of the unknowns in the refinement, up to run @p fine.
     double growth(std::size_t fine) const;
+
+    /// Of the last equilibrium that was kept, over the diagonal of the box around the body.
+    /// Collective.
+    double largest_displacement() const;
 
     /// The result of Element = auto if run @p chosen is it: files in place, automatic.csv written.
     RunResult finish(std::size_t chosen);

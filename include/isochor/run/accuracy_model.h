@@ -27,6 +27,10 @@ namespace isochor
   /// where the pressure is singular near nu = 0.5, and faceted curved surfaces bound it.
   double trusted_order(unsigned int degree);
 
+  /// Order that a prediction counts on. More than trusted_order(): a step too short is followed by
+  /// another, what a step too long has cost is gone.
+  double hoped_order(unsigned int degree);
+
   /// Factor between the edge lengths of two runs with one element, from their unknowns: what was
   /// asked for is not what a coarse mesh of few blocks, or of walls one cell thick, becomes.
   double edge_ratio(const Trial &coarse, const Trial &fine, unsigned int dim);
@@ -48,7 +52,7 @@ namespace isochor
   };
 
   /// The coarsest mesh on which the element of @p trial, whose error is @p error, is expected to err
-  /// by @p accuracy. Seconds grow with unknowns to the power of 1.4, between what kept factors and
+  /// by @p accuracy, with hoped_order(). Seconds grow with unknowns to the power of 1.4, between what kept factors and
   /// what multigrid take (convergence/block_preconditioner). @p growth: exponent of the unknowns in
   /// the refinement.
   Prediction predict(const Trial &trial, double error, double accuracy, double growth);
