@@ -150,6 +150,11 @@ def short(parameter):
     return parameter.split("/")[-1]
 
 
+def slug(text):
+    """TEXT as a part of a file's name."""
+    return re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
+
+
 def groups(rows, key):
     """The rows by key(row), in order of appearance."""
     found = {}

@@ -1,0 +1,41 @@
+"""Where a study's table, parameters and charts are: in the folder that isochor wrote, or beside the
+baseline of a study of convergence/."""
+
+import re
+from pathlib import Path
+
+from results_table import Study
+
+TITLE = re.compile(r"^subsection Study$.*?^ *set Title *= *([^#\n]*?) *(?:#.*)?$.*?^end$",
+                   re.MULTILINE | re.DOTALL)
+
+
+class StudyFiles:
+    """Of a folder with results.csv, or of a table such as baseline_tube.csv, whose study is tube.prm.
+
+    table        the .csv
+    parameters   the .prm, which may be missing
+    folder       where charts go
+    prefix       what their names begin with: a folder of baselines may have several studies
+    """
+
+    def __init__(self, place):
+        place = Path(place)
+        is_table = place.suffix == ".csv"
+        self.table = place if is_table else place / "results.csv"
+        self.folder = self.table.parent
+        part = re.fullmatch(r"baseline(?:_(.*))?", place.stem) if is_table else None
+        self.part = part[1] if part else None
+        self.prefix = f"{self.part}_" if self.part else ""
+        self.parameters = self.folder / (f"{self.part or 'study'}.prm" if part else "parameters.prm")
+
+    def read(self):
+        return Study(self.table)
+
+    def title(self):
+        """The one that the parameters give, or a name."""
+        text = (self.parameters.read_text(encoding="utf-8", errors="replace")
+                if self.parameters.is_file() else "")
+        match = TITLE.search(text)
+        name = self.part or self.folder.absolute().name
+        return match[1] if match and match[1] else name.replace("_", " ").capitalize()
