@@ -42,7 +42,8 @@ def plain(value, _position=None):
 
 def log_axis(axis, formatter):
     low, high = axis.get_view_interval()
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 50 * low else (1,), numticks=12))
+    subs = (1, 2, 5) if high < 50 * low else (1, 3) if high < 500 * low else (1,)
+    axis.set_major_locator(LogLocator(subs=subs, numticks=12))
     axis.set_major_formatter(FuncFormatter(formatter))
     axis.set_minor_formatter(NullFormatter())
 

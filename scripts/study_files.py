@@ -6,8 +6,17 @@ from pathlib import Path
 
 from results_table import Study
 
-TITLE = re.compile(r"^subsection Study$.*?^ *set Title *= *([^#\n]*?) *(?:#.*)?$.*?^end$",
+TITLE = re.compile(r"^subsection Study$(?:(?!^end$).)*?^ *set Title *= *([^#\n]*?) *(?:#.*)?$",
                    re.MULTILINE | re.DOTALL)
+INCLUDE = re.compile(r"^ *include +(\S+).*$", re.MULTILINE)
+
+
+def parameters_text(file, depth=9):
+    """The text of a parameter file with what it includes in place; empty if there is none."""
+    if not file.is_file() or not depth:
+        return ""
+    text = file.read_text(encoding="utf-8", errors="replace")
+    return INCLUDE.sub(lambda match: parameters_text(file.parent / match[1], depth - 1), text)
 
 
 class StudyFiles:
@@ -34,8 +43,6 @@ class StudyFiles:
 
     def title(self):
         """The one that the parameters give, or a name."""
-        text = (self.parameters.read_text(encoding="utf-8", errors="replace")
-                if self.parameters.is_file() else "")
-        match = TITLE.search(text)
+        titles = TITLE.findall(parameters_text(self.parameters))  # the last one counts
         name = self.part or self.folder.absolute().name
-        return match[1] if match and match[1] else name.replace("_", " ").capitalize()
+        return titles[-1] if titles and titles[-1] else name.replace("_", " ").capitalize()
