@@ -41,7 +41,11 @@ def plain(value, _position=None):
 
 
 def log_axis(axis, formatter):
-    low, high = axis.get_view_interval()
+    log_ticks(axis, *axis.get_view_interval(), formatter)
+
+
+def log_ticks(axis, low, high, formatter):
+    """Labels at round numbers, more of them where LOW to HIGH is a short way."""
     subs = (1, 2, 5) if high < 50 * low else (1, 3) if high < 500 * low else (1,)
     axis.set_major_locator(LogLocator(subs=subs, numticks=12))
     axis.set_major_formatter(FuncFormatter(formatter))

@@ -10,7 +10,9 @@ NEEDED = [FIRST_COST, "unknowns", "seconds total", LAST_COST, AFTER_PROBES, "sta
 POISSON = "Scene/Poisson ratio"
 # Parameters that change the discretisation, not the problem.
 RESOLUTION = ["Scene/Mesh size", "Scene/Cells"]
-UNITS = {"Mesh size": "m", "Young's modulus": "Pa", "Density": "kg/m³", "Poisson ratio": ""}
+UNITS = {"Mesh size": "m", "Young's modulus": "Pa", "Density": "kg/m³", "Poisson ratio": "",
+         "Pressure": "Pa", "Traction": "Pa", "Gravity": "m/s²", "Body force": "N/m³",
+         "Prescribed displacement": "m", "Prescribed rotation": "°"}
 
 Probe = namedtuple("Probe", "column name unit error uncertainty")
 

@@ -46,3 +46,8 @@ class StudyFiles:
         titles = TITLE.findall(parameters_text(self.parameters))  # the last one counts
         name = self.part or self.folder.absolute().name
         return titles[-1] if titles and titles[-1] else name.replace("_", " ").capitalize()
+
+    def blamed(self, error):
+        """The text of ERROR, with the table's name if it does not say it itself."""
+        text = str(error)
+        return text if text.startswith(str(self.table)) else f"{self.table}: {text}"

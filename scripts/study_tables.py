@@ -11,6 +11,7 @@ folder,
                                   "in percent"
   published FILE against FILE     a baseline against published values (see compare_results.py)
   cheapest FILE: PROBE            the cheapest run for each accuracy (see cost_and_accuracy.py)
+  failures FILE                   how far each method came, and why no further (see failures.py)
 Other blocks are left alone; rerun_study.py fills "baseline".
 """
 
@@ -21,6 +22,7 @@ from pathlib import Path
 
 from compare_results import against_published
 from cost_and_accuracy import cheapest_rows, probe_with_error
+from failures import failures_rows
 from results_table import BadTable, Study, failed, groups, number, short
 
 BLOCK = re.compile(r"(<!-- begin: (.*?) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
@@ -98,6 +100,8 @@ def table(folder, what):
     if match := re.fullmatch(r"cheapest (\S+): (.+)", what):
         study = Study(folder / match[1])
         return markdown(*cheapest_rows(study, probe_with_error(study, match[2])))
+    if match := re.fullmatch(r"failures (\S+)", what):
+        return markdown(*failures_rows(Study(folder / match[1])))
     return None
 
 

@@ -92,9 +92,7 @@ def main():
             study = files.read()
             probe = probe_with_error(study, options.probe)
         except BadTable as error:
-            text = str(error)
-            sys.exit(f"work_precision.py: error: "
-                     f"{text if text.startswith(str(place)) else f'{place}: {text}'}")
+            sys.exit(f"work_precision.py: error: {files.blamed(error)}")
         name = (f"{slug(probe.name)}_" if options.probe else "") + "work_precision"
         written = chart(study, files, probe, name, options.title or files.title())
         print("\n".join(map(str, written)))
