@@ -19,7 +19,8 @@ CAUSES = [(r"limit point near load factor", "limit point"),
 
 # word: why it is not stable, empty if it is. kind: "stable", "unstable" (an equilibrium, but one that
 # the body would leave), "failed" or "refused". reached: the load, in the unit of Loads.amounts.
-Outcome = namedtuple("Outcome", "kind word amount reached seconds")
+# least_j: of the last state; None if there is none.
+Outcome = namedtuple("Outcome", "kind word amount reached seconds least_j")
 
 
 def modes(count):
@@ -77,25 +78,24 @@ def split_common(texts):
 
 def text_of(amount):
     """To three digits."""
-    return f"{float(f'{amount:.3g}'):.10g}"
+    return f"{float(f'{amount:.3g}') + 0.:.10g}"  # no "-0"
 
 
 def outcome(row, loads):
     """Of one run."""
     amount, status = loads.amounts[row[loads.parameter]], row["status"]
     reached = amount * (number(row["load factor"]) or 0.)
-    seconds = number(row["seconds total"])
+    figures = amount, reached, number(row["seconds total"]), number(row.get("min J"))
     if match := re.fullmatch(r"unstable \((\d+) modes?\)", status):
-        return Outcome("unstable", f"unstable, {modes(match[1])}", amount, reached, seconds)
+        return Outcome("unstable", f"unstable, {modes(match[1])}", *figures)
     if status in ("stable", "converged"):
-        return Outcome("stable", "", amount, reached, seconds)
+        return Outcome("stable", "", *figures)
     if status != "not converged":
-        return Outcome("refused" if status == "refused" else "failed", status, amount, reached,
-                       seconds)
+        return Outcome("refused" if status == "refused" else "failed", status, *figures)
     for pattern, word in CAUSES:
         if match := re.search(pattern, row["reason"]):
             word = word.format(*map(modes, match.groups()))
-            return Outcome("failed", word, amount, reached, seconds)
+            return Outcome("failed", word, *figures)
 
 
 def summary(outcomes):
@@ -106,14 +106,16 @@ def summary(outcomes):
         return text_of(outcomes[-1].amount)
     if trouble.kind == "refused":
         return "refused"
-    if trouble.kind == "unstable":
-        text = f"{text_of(trouble.amount)} {trouble.word}"
-    else:
-        reached = max((found.reached for found in outcomes if found.kind == "failed"), key=abs)
-        text = f"{text_of(reached)} {trouble.word}"
+    reached = text_of(trouble.reached)
+    text = f"{reached} {trouble.word}"
+    # Larger loads in as many steps take larger ones, which may jump over what stopped this run.
+    farthest = max((found.reached for found in outcomes if found.kind == "failed"), key=abs,
+                   default=0.)
+    if abs(farthest) > 1.05 * abs(trouble.reached) and trouble.kind == "failed":
+        text += f"; {text_of(farthest)} in larger steps"
     beyond = [found for found in outcomes
               if found.kind == "stable" and abs(found.amount) > abs(trouble.amount)]
-    return text + "".join(f"; but stable at {text_of(found.amount)}" for found in beyond)
+    return text + (f"; but stable at {text_of(beyond[-1].amount)}" if beyond else "")
 
 
 def failures_rows(study):
