@@ -83,6 +83,11 @@ class Study:
         several = [n for n in names if len({r[n] for r in self.runs}) > 1] or names[:1]
         return ", ".join(row[n] for n in several) or "run"
 
+    def label(self, row):
+        """What a picture calls a run: all that varies, the method first."""
+        return ", ".join(row[n] if n.startswith("Method/") else setting(row, n)
+                         for n in sorted(self.varied))
+
     def find(self, wanted):
         """The one run with the settings "Element = P1; Poisson ratio = 0.4999"."""
         rows = self.runs
