@@ -94,7 +94,7 @@ def draw_charts(part, scratch):
 
 
 def chart_caption(name):
-    words = name.replace("_", " ")
+    words = name.replace("_", " ").replace("poisson", "Poisson")
     return words[0].upper() + words[1:]
 
 
@@ -132,7 +132,8 @@ def readme_section(readme, parts):
 def run_again(part, row, program, folder):
     """The run of ROW with its final state written; the folder of its results."""
     command = [program, part.files.parameters, "--output", folder, "--overwrite",
-               "--set", "Output/VTU=final"]
+               "--set", "Output/VTU=final", "--set", "Study/Reference=",
+               "--set", "Study/Reference check="]
     for name in part.study.parameters:
         command += ["--set", f"{name}={row[name]}"]
     result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
