@@ -14,7 +14,7 @@ TOKEN = re.compile(rf"{NUMBER}|\s+|\w+|.")
 CAUSES = [(r"limit point near load factor", "limit point"),
           (r"^singular tangent", "singular"),
           (r"^inverted cell", "inverted"),
-          (r"^unstable \((\d+) negative pivots", "unstable, {}"),
+          (r"^unstable \((\d+) negative pivots", "turns unstable, {}"),
           (r"", "no convergence")]
 
 # word: why it is not stable, empty if it is. kind: "stable", "unstable" (an equilibrium, but one that

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from compare_results import RELATIVE
-from results_table import failed, number
+from results_table import failed, number, short
 from study_tables import figure as digits
 
 STYLE = Path(__file__).resolve().parent / "report.css"
@@ -69,8 +69,6 @@ def inline_image(file, label):
 def cell(column, text):
     """HTML of a figure, to the digits that a reader wants."""
     value = number(text)
-    if column in LAST:
-        return f'<td class="text">{escape(text)}</td>'
     if value is None:
         return f"<td>{escape(text)}</td>"
     if RELATIVE.search(column):
@@ -86,8 +84,10 @@ def runs_table(study):
     filled = [name for name in study.columns if any(row[name] for row in rows)]
     figures = [name for name in filled if name not in study.parameters + FIRST + LAST + HIDDEN]
     columns = [*FIRST, *figures, *(name for name in LAST if name in filled)]
-    head = "".join(f'<th scope="col">{escape(name)}</th>'
-                   for name in [*(name.split("/")[-1] for name in study.parameters), *columns])
+    head = "".join(f'<th scope="col">{escape(short(name))}</th>' for name in study.parameters)
+    for name in columns:
+        marks = ' class="number"' if any(number(row[name]) is not None for row in rows) else ""
+        head += f'<th scope="col"{marks}>{escape(name)}</th>'
     body = ""
     for row in rows:
         marks = ' class="failed"' if failed(row) else ""

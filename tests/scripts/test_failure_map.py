@@ -78,7 +78,7 @@ class FailureMap(unittest.TestCase):
     def test_word_for_a_failure(self):
         words = {"stable": "", "converged": "", "two modes": "unstable, 2 modes",
                  "one mode": "unstable, 1 mode", "inverted": "inverted", "singular": "singular",
-                 "pivots": "unstable, 1 mode", "limit": "limit point", "slow": "no convergence",
+                 "pivots": "turns unstable, 1 mode", "limit": "limit point", "slow": "no convergence",
                  "refused": "refused"}
         self.assertEqual(set(words), set(ENDS))
         for end, word in words.items():
