@@ -75,8 +75,8 @@ def run_script(name, *arguments):
 
 def draw_charts(part, scratch):
     """All charts that there are for such a study, in a folder below SCRATCH."""
-    folder = scratch / (part.name or "study") / "charts"
-    folder.mkdir(parents=True)
+    folder = scratch / f"charts_{part.name}"
+    folder.mkdir()
     shutil.copyfile(part.files.table, folder / "results.csv")
 
     def draw(script, needed=None):
@@ -154,7 +154,7 @@ def state_of(part, row, options, scratch):
         return file
     if not options.isochor.is_file():
         raise Failed(f"{options.isochor}: no such program, which pictures need; name it by --isochor")
-    folder = scratch / (part.name or "study") / f"run_{part.study.runs.index(row)}"
+    folder = scratch / f"run_{part.name}_{part.study.runs.index(row)}"
     return run_again(part, row, options.isochor.resolve(), folder) / "solution.pvd"
 
 
@@ -227,6 +227,10 @@ def versions_html(parts, options):
 def report(place, options, scratch):
     """The page."""
     parts = find_parts(place)
+    # First what can be wrong.
+    pictures = [(part.slug("pictures"), part.heading("Pictures"),
+                 pictures_html(part, rows, options, scratch))
+                for part, rows in wanted_rows(parts, options.picture)]
     for part in parts:
         draw_charts(part, scratch)
     readme, sections, shown = place / "README.md", [], set()
@@ -235,9 +239,7 @@ def report(place, options, scratch):
         title = readme_title(readme.read_text(encoding="utf-8")) or title
         text, shown = readme_section(readme, parts)
         sections.append(("readme", "Study", text))
-    for part, rows in wanted_rows(parts, options.picture):
-        sections.append((part.slug("pictures"), part.heading("Pictures"),
-                         pictures_html(part, rows, options, scratch)))
+    sections += pictures
     for part in parts:
         if text := charts_html(part, shown):
             sections.append((part.slug("charts"), part.heading("Charts"), text))
