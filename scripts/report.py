@@ -60,7 +60,7 @@ def find_parts(place):
     else:
         tables = []
     if not tables:
-        known = sorted({file.parent.name for file in place.parent.glob("*/baseline*.csv")})
+        known = sorted({file.parent.name for file in place.parent.glob("*/*.prm")})
         raise Failed(f"{place}: neither results.csv nor a parameter file with its baseline"
                      + (f"; studies there are {', '.join(known)}" if known else ""))
     return [Part(StudyFiles(table), len(tables) > 1) for table in tables]
