@@ -106,12 +106,15 @@ def summary(outcomes):
         return text_of(outcomes[-1].amount)
     if trouble.kind == "refused":
         return "refused"
-    reached = text_of(trouble.reached)
-    text = f"{reached} {trouble.word}"
-    # Larger loads in as many steps take larger ones, which may jump over what stopped this run.
+    text = f"{text_of(trouble.reached)} {trouble.word}"
+    borne = max((found.amount for found in outcomes[:outcomes.index(trouble)]), key=abs, default=0.)
+    if abs(borne) > abs(trouble.reached):
+        # Its steps were larger than those to the load before.
+        text = f"{text_of(borne)}; {text} on the way to {text_of(trouble.amount)}"
+    # Larger steps may jump over what stopped this run.
     farthest = max((found.reached for found in outcomes if found.kind == "failed"), key=abs,
                    default=0.)
-    if abs(farthest) > 1.05 * abs(trouble.reached) and trouble.kind == "failed":
+    if abs(farthest) > 1.05 * max(abs(trouble.reached), abs(borne)):
         text += f"; {text_of(farthest)} in larger steps"
     beyond = [found for found in outcomes
               if found.kind == "stable" and abs(found.amount) > abs(trouble.amount)]

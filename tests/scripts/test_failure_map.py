@@ -97,11 +97,14 @@ class FailureMap(unittest.TestCase):
 
     def test_how_far_a_method_came(self):
         self.assertEqual(self.summary("stable", "stable", "converged"), "3000")
-        self.assertEqual(self.summary("stable", "inverted", "limit"), "600 inverted; 900 in larger steps")
+        self.assertEqual(self.summary("inverted", "inverted", "limit"),
+                         "300 inverted; 900 in larger steps")
+        self.assertEqual(self.summary("stable", "inverted", "limit"),
+                         "1000; 600 inverted on the way to 2000")
         self.assertEqual(self.summary("stable", "two modes", "slow"), "2000 unstable, 2 modes")
         self.assertEqual(self.summary("refused", "refused", "refused"), "refused")
         self.assertEqual(self.summary("stable", "slow", "stable"),
-                         "600 no convergence; but stable at 3000")
+                         "1000; 600 no convergence on the way to 2000; but stable at 3000")
 
     def run_script(self):
         return subprocess.run([SCRIPTS / "failure_map.py", self.file], capture_output=True,
