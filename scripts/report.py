@@ -45,11 +45,9 @@ class Part:
         self.title = files.title()
         self.charts = {}
 
-    def slug(self, what):
-        return f"{what}-{self.name}" if self.name else what
-
-    def heading(self, what):
-        return f"{what}: {self.title}" if self.name else what
+    def heading(self):
+        """HTML above what belongs to this part, if there are others."""
+        return f"<h3>{escape(self.title)}</h3>\n" if self.name else ""
 
 
 def find_parts(place):
@@ -104,8 +102,8 @@ def charts_html(part, left_out):
     for name, file in part.charts.items():
         if part.files.prefix + name not in left_out:
             caption = chart_caption(name) + (f", {part.title}" if part.name else "")
-            text += figure(inline_svg(file, part.slug(name), caption), caption)
-    return text
+            text += figure(inline_svg(file, f"{part.name}-{name}", caption), caption)
+    return part.heading() + text if text else ""
 
 
 def readme_section(readme, parts):
@@ -190,10 +188,10 @@ def rows_on_disk(part):
 def pictures_html(part, rows, options, scratch):
     states = [state_of(part, row, options, scratch) for row in rows]
     labels = [part.study.label(row) or "the run" for row in rows]
-    file = scratch / f"{part.slug('picture')}.png"
+    file = scratch / f"picture_{part.name}.png"
     run_script("picture.py", "-o", file, *(f"--label={label}" for label in labels), *states)
     caption = f"Deformed and, in grey, at rest, coloured by von Mises stress: {'; '.join(labels)}"
-    return figure(inline_image(file, caption), caption)
+    return part.heading() + figure(inline_image(file, caption), caption)
 
 
 def parameters_html(part):
@@ -228,26 +226,22 @@ def report(place, options, scratch):
     """The page."""
     parts = find_parts(place)
     # First what can be wrong.
-    pictures = [(part.slug("pictures"), part.heading("Pictures"),
-                 pictures_html(part, rows, options, scratch))
+    pictures = [pictures_html(part, rows, options, scratch)
                 for part, rows in wanted_rows(parts, options.picture)]
     for part in parts:
         draw_charts(part, scratch)
-    readme, sections, shown = place / "README.md", [], set()
+    readme, study, shown = place / "README.md", "", set()
     title = parts[0].title if not parts[0].name else place.absolute().name.replace("_", " ")
     if readme.is_file():
         title = readme_title(readme.read_text(encoding="utf-8")) or title
-        text, shown = readme_section(readme, parts)
-        sections.append(("readme", "Study", text))
-    sections += pictures
-    for part in parts:
-        if text := charts_html(part, shown):
-            sections.append((part.slug("charts"), part.heading("Charts"), text))
-    for part in parts:
-        sections.append((part.slug("runs"), part.heading("Runs"), runs_table(part.study)))
-    sections.append(("parameters", "Parameters", "".join(map(parameters_html, parts))))
-    sections.append(("versions", "Versions", versions_html(parts, options)))
-    return page(options.title or title, sections)
+        study, shown = readme_section(readme, parts)
+    sections = {"Study": study, "Pictures": "".join(pictures),
+                "Charts": "".join(charts_html(part, shown) for part in parts),
+                "Runs": "".join(part.heading() + runs_table(part.study) for part in parts),
+                "Parameters": "".join(map(parameters_html, parts)),
+                "Versions": versions_html(parts, options)}
+    return page(options.title or title,
+                [(name.lower(), name, text) for name, text in sections.items() if text])
 
 
 def main():
