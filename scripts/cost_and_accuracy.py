@@ -32,15 +32,21 @@ def probe_with_error(study, name=None):
     return probe
 
 
+def is_unstable(row):
+    """An equilibrium, and perhaps the wanted one, but the body would leave it."""
+    return row["status"].startswith("unstable")
+
+
 def uncertainty(row, probe):
     return abs(number(row[probe.uncertainty]) or 0) if probe.uncertainty else 0.
 
 
 def assured_errors(study, rows, probe):
     """(row, error) of the runs ROWS of one problem that can be counted on; a run that is the
-    reference itself has no error of its own and is left out."""
+    reference itself has no error of its own and is left out, and so is one that was refused, which
+    says nothing of the method on this mesh."""
     found = []
-    for line in groups(rows, study.method).values():
+    for line in groups([row for row in rows if row["status"] != "refused"], study.method).values():
         assured = 0.
         # More cells are a finer mesh, however it was asked for.
         for row in sorted(line, key=lambda row: -number(row["cells"])):
@@ -86,7 +92,8 @@ def cheapest_rows(study, probe):
             if row is None:
                 line += [why_none(assured, rows, probe, request), *["-"] * (len(sizes) + 3)]
             else:
-                line += [study.method(row), *(row[name] for name in sizes), row["unknowns"],
+                line += [study.method(row) + (f", {row['status']}" if is_unstable(row) else ""),
+                         *(row[name] for name in sizes), row["unknowns"],
                          f"{number(row['seconds total']):.2g}",
                          f"{100 * abs(number(row[probe.error])):.2g} %"]
             table.append(line)

@@ -8,7 +8,8 @@ Beside it are written, as SVG and PNG,
   PROBE_work_precision    with --probe
 with the prefix tube_ for baseline_tube.csv. A line per method joins its meshes; a row of panels per
 problem. Rings mark the Pareto front of the errors that finer meshes of the same method bear out
-(cost_and_accuracy.py): nothing is both cheaper and more accurate. Failed runs are crosses.
+(cost_and_accuracy.py): nothing is both cheaper and more accurate. Failed runs are crosses; a white dot
+marks an unstable equilibrium.
 """
 
 import argparse
@@ -19,8 +20,8 @@ from matplotlib.lines import Line2D
 
 from chart_style import (draw_failed, draw_uncertainty, errors, leave_room_for_strip, legend,
                          log_axis, new_figure, percent, plain, save, style)
-from cost_and_accuracy import (assured_errors, cheapest_rows, pareto_front, probe_with_error,
-                               problems)
+from cost_and_accuracy import (assured_errors, cheapest_rows, is_unstable, pareto_front,
+                               probe_with_error, problems)
 from results_table import BadTable, failed, groups, number, setting, slug
 from study_files import StudyFiles
 from study_tables import markdown
@@ -39,6 +40,18 @@ def draw_lines(axes, study, rows, probe, column):
             axes.plot(costs, values, linewidth=1.4, markersize=6.5, **style(study, method))
 
 
+def draw_unstable(axes, study, rows, probe, column):
+    """White dots in the markers of equilibria that the body would leave."""
+    look = dict(marker="o", markersize=2.6, color="white", linestyle="", zorder=7)
+    points = [(number(row[column]), error) for row, error in errors(rows, probe)
+              if is_unstable(row)]
+    if not points:
+        return []
+    axes.plot(*zip(*points), **look)
+    return [Line2D([], [], label="unstable", marker="o", markersize=7, color="#777777",
+                   markerfacecolor="white", markeredgewidth=2.2, linestyle="")]
+
+
 def draw_front(axes, study, rows, probe, column):
     """Rings around the runs of the Pareto front, drawn at their own errors."""
     points = [(number(row[column]), error, abs(number(row[probe.error])))
@@ -47,7 +60,7 @@ def draw_front(axes, study, rows, probe, column):
     look = dict(marker="o", markersize=13, markerfacecolor="none", markeredgecolor="#222222",
                 markeredgewidth=1.2, linestyle="")
     axes.plot([cost for cost, _, _ in front], [own for _, _, own in front], zorder=6, **look)
-    return [Line2D([], [], label="Pareto front", **look)]
+    return [Line2D([], [], label="Pareto front,\nluck left out", **look)]
 
 
 def chart(study, files, probe, name, title):
@@ -59,7 +72,8 @@ def chart(study, files, probe, name, title):
     columns = list(COSTS) * (len(panels) // len(COSTS))
     for (axes, rows), column in zip(pairs, columns):
         draw_lines(axes, study, rows, probe, column)
-    any_failed = any(map(failed, study.runs))
+    # One that was refused has no place on these axes.
+    any_failed = any(failed(row) and number(row["unknowns"]) for row in study.runs)
     for axes, _ in pairs[:len(COSTS)]:
         axes.margins(x=0.1, y=0.1)
         log_axis(axes.xaxis, plain)
@@ -67,7 +81,9 @@ def chart(study, files, probe, name, title):
         leave_room_for_strip(pairs[0][0])
     extra = {}
     for (axes, rows), column in zip(pairs, columns):
-        handles = draw_front(axes, study, rows, probe, column) + draw_uncertainty(axes, rows, probe)
+        handles = (draw_front(axes, study, rows, probe, column)
+                   + draw_unstable(axes, study, rows, probe, column)
+                   + draw_uncertainty(axes, rows, probe))
         extra.update({handle.get_label(): handle for handle in handles})
         draw_failed(axes, study, list(filter(failed, rows)),
                     lambda row, column=column: number(row[column]) or None)

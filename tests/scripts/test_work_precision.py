@@ -90,6 +90,25 @@ class WorkPrecision(unittest.TestCase):
         self.assertEqual(self.table()["1 %"][0], "none: at best 2 %")
         self.assertEqual(self.table()["3 %"], ("P2", "0.2", "2 %"))
 
+    def test_unstable_equilibria_are_named(self):
+        table = rows()
+        table[5][HEADER.index("status")] = "unstable (2 modes)"
+        self.write(table)
+        self.assertEqual(self.table()["1 %"], ("P2, unstable (2 modes)", "0.1", "0.4 %"))
+        self.assertEqual(self.run_script().returncode, 0)
+        self.assertIn("<!-- unstable -->",
+                      (self.folder / "beam_work_precision.svg").read_text())
+
+    def test_refused_run_says_nothing(self):
+        refused = row("0.1", "P3", None)
+        for name, text in (("cells", 0), ("unknowns", 0), ("status", "refused")):
+            refused[HEADER.index(name)] = text
+        self.write(rows()[:-1] + [refused])
+        self.assertEqual(self.assured()["P3", "0.2"], 0.002)
+        self.assertEqual(self.run_script().returncode, 0)
+        self.assertNotIn("<!-- failed -->",
+                         (self.folder / "beam_work_precision.svg").read_text())
+
     def test_pareto_front(self):
         points = [(1, 0.2), (2, 0.3), (3, 0.1), (3, 0.1), (3, 0.15), (9, 0.01), (10, 0.01)]
         self.assertEqual(pareto_front(points), [(1, 0.2), (3, 0.1), (3, 0.1), (9, 0.01)])
@@ -106,10 +125,12 @@ class WorkPrecision(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn("| 3 % | P2 | 0.2 | 3000 | 3 | 2 % |", result.stdout)
         svg = (self.folder / "beam_work_precision.svg").read_text()
-        for text in ("A beam: error of tip against work", "failed", "Pareto front", "unknowns",
+        for text in ("A beam: error of tip against work", "failed", "unknowns",
                      "relative error of tip"):
             self.assertIn(f"<!-- {text} -->", svg)
         self.assertIn("reference's own", svg)
+        self.assertIn("Pareto front,", svg)
+        self.assertNotIn("unstable", svg)
         self.assertGreater((self.folder / "beam_work_precision.png").stat().st_size, 10000)
 
     def test_named_probe(self):
