@@ -8,8 +8,9 @@ packages=(
   libopenblas-dev libopenblas0-pthread # Debian's default BLAS is the slow reference one
   openmpi-bin libopenmpi-dev
   numdiff                              # compares test results
-  python3 python3-numpy python3-matplotlib python3-vtk9
+  python3 python3-numpy python3-matplotlib python3-vtk9 python3-markdown
   xvfb                                 # Debian's VTK draws through an X server only
+  chromium                             # checks that reports are shown as they should be
 )
 
 if ! command -v dpkg-query apt-get >/dev/null; then

@@ -31,7 +31,7 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRendere
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (provides the renderer)
 
 from body_surface import BadFile, Body
-from results_table import BadTable, Study, setting
+from results_table import BadTable, Study
 
 UNITS = {"displacement": "m", "von mises stress": "Pa", "pressure": "Pa", "j": ""}
 SUPERSAMPLING = 2
@@ -226,9 +226,7 @@ def states_of_study(folder, wanted):
     if "folder" not in study.columns:
         raise BadTable(f"{folder}/results.csv: no column named 'folder' tells where a run's files are")
     rows = [study.find(text) for text in wanted]
-    labels = [", ".join(row[n] if n.startswith("Method/") else setting(row, n)
-                        for n in sorted(study.varied)) for row in rows]
-    return [folder / row["folder"] / "solution.pvd" for row in rows], labels
+    return [folder / row["folder"] / "solution.pvd" for row in rows], list(map(study.label, rows))
 
 
 def main():

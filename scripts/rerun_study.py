@@ -23,7 +23,7 @@ import tempfile
 from pathlib import Path
 
 from compare_results import against_published, compare
-from results_table import BadTable, Study, short
+from results_table import BadTable, Study, short, slug
 from study_tables import BLOCK, refreshed
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -136,19 +136,40 @@ def update(folder, results, isochor):
     draw(folder, results)
 
 
+def command_for(picture, study, output):
+    """The program that draws the chart PICTURE (a name without prefix and ending) of STUDY in the
+    folder OUTPUT, with arguments; None if no chart is called so."""
+    if "_against_" in picture:
+        return ["chart.py", output]
+    if picture == "failure_map":
+        return ["failure_map.py", output]
+    if picture == "work_precision":
+        return ["work_precision.py", output]
+    probes = {f"{slug(probe.name)}_work_precision": probe.name for probe in study.probes}
+    if picture in probes:
+        return ["work_precision.py", output, "--probe", probes[picture]]
+    return None
+
+
 def draw(folder, results):
-    """The charts that the README shows."""
+    """The charts that the README shows; their names tell which."""
     readme = folder / "README.md"
-    wanted = set(re.findall(r"!\[[^]]*\]\(([^)/]+\.png)\)", readme.read_text(encoding="utf-8"))
-                 if readme.is_file() else [])
-    for part, _, output in results:
-        # As a program: its first line names the Python that has matplotlib.
-        result = subprocess.run([SCRIPTS / "chart.py", output], capture_output=True, text=True)
-        if result.returncode != 0:
-            raise Failed(f"chart.py: {result.stderr}")
-        for chart in output.glob("*.png"):
-            if part.chart_prefix + chart.name in wanted:
-                shutil.copyfile(chart, folder / (part.chart_prefix + chart.name))
+    wanted = (re.findall(r"!\[[^]]*\]\(([^)/]+)\.png\)", readme.read_text(encoding="utf-8"))
+              if readme.is_file() else [])
+    for part, study, output in results:
+        pictures = [name.removeprefix(part.chart_prefix) for name in wanted
+                    if name.startswith(part.chart_prefix)]
+        commands = [command for picture in pictures
+                    if (command := command_for(picture, study, output))]
+        for command in dict.fromkeys(map(tuple, commands)):
+            # As a program: its first line names the Python that has matplotlib.
+            result = subprocess.run([SCRIPTS / command[0], *command[1:]], capture_output=True,
+                                    text=True)
+            if result.returncode != 0:
+                raise Failed(f"{command[0]}: {result.stderr}")
+        for picture in pictures:
+            if (chart := output / f"{picture}.png").is_file():
+                shutil.copyfile(chart, folder / f"{part.chart_prefix}{picture}.png")
 
 
 def rerun(folder, options, scratch):

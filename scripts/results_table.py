@@ -10,7 +10,9 @@ NEEDED = [FIRST_COST, "unknowns", "seconds total", LAST_COST, AFTER_PROBES, "sta
 POISSON = "Scene/Poisson ratio"
 # Parameters that change the discretisation, not the problem.
 RESOLUTION = ["Scene/Mesh size", "Scene/Cells"]
-UNITS = {"Mesh size": "m", "Young's modulus": "Pa", "Density": "kg/m³", "Poisson ratio": ""}
+UNITS = {"Mesh size": "m", "Young's modulus": "Pa", "Density": "kg/m³", "Poisson ratio": "",
+         "Pressure": "Pa", "Traction": "Pa", "Gravity": "m/s²", "Body force": "N/m³",
+         "Prescribed displacement": "m", "Prescribed rotation": "°"}
 
 Probe = namedtuple("Probe", "column name unit error uncertainty")
 
@@ -81,6 +83,11 @@ class Study:
         several = [n for n in names if len({r[n] for r in self.runs}) > 1] or names[:1]
         return ", ".join(row[n] for n in several) or "run"
 
+    def label(self, row):
+        """What a picture calls a run: all that varies, the method first."""
+        return ", ".join(row[n] if n.startswith("Method/") else setting(row, n)
+                         for n in sorted(self.varied))
+
     def find(self, wanted):
         """The one run with the settings "Element = P1; Poisson ratio = 0.4999"."""
         rows = self.runs
@@ -148,6 +155,11 @@ def size_of(text):
 
 def short(parameter):
     return parameter.split("/")[-1]
+
+
+def slug(text):
+    """TEXT as a part of a file's name."""
+    return re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
 
 
 def groups(rows, key):

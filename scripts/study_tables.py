@@ -10,6 +10,8 @@ folder,
   values FILE: COLUMN by SETTING  a figure, a column per value of the setting; behind it may stand
                                   "in percent"
   published FILE against FILE     a baseline against published values (see compare_results.py)
+  cheapest FILE: PROBE            the cheapest run for each accuracy (see cost_and_accuracy.py)
+  failures FILE                   how far each method came, and why no further (see failures.py)
 Other blocks are left alone; rerun_study.py fills "baseline".
 """
 
@@ -19,6 +21,8 @@ import sys
 from pathlib import Path
 
 from compare_results import against_published
+from cost_and_accuracy import cheapest_rows, probe_with_error
+from failures import failures_rows
 from results_table import BadTable, Study, failed, groups, number, short
 
 BLOCK = re.compile(r"(<!-- begin: (.*?) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
@@ -93,6 +97,11 @@ def table(folder, what):
         return values_table(Study(folder / match[1]), match[2], match[3], bool(match[4]))
     if match := re.fullmatch(r"published (\S+) against (\S+)", what):
         return published_table(against_published(Study(folder / match[1]), folder / match[2]))
+    if match := re.fullmatch(r"cheapest (\S+): (.+)", what):
+        study = Study(folder / match[1])
+        return markdown(*cheapest_rows(study, probe_with_error(study, match[2])))
+    if match := re.fullmatch(r"failures (\S+)", what):
+        return markdown(*failures_rows(Study(folder / match[1])))
     return None
 
 

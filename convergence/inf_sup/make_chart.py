@@ -8,7 +8,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 
-from chart import plt, style  # noqa: E402
+from chart_style import plt, style  # noqa: E402
 from results_table import Study, number  # noqa: E402
 
 FAMILIES = {"baseline.csv": "6-tet split, hexahedra", "baseline_five_tets.csv": "5-tet split",

@@ -37,7 +37,10 @@ README = """# A beam
 <!-- end -->
 <!-- begin: values baseline.csv: tip [m] by Mesh size -->
 <!-- end -->
+<!-- begin: cheapest baseline.csv: tip -->
+<!-- end -->
 ![Error](tip_error_against_mesh_size.png)
+![Work](work_precision.png) ![The same](tip_work_precision.png) ![By hand](picture.png)
 """
 
 
@@ -145,8 +148,10 @@ class RerunStudy(unittest.TestCase):
         self.assertIn("| tip | P1 | 0.0500 | 1.00 | 1.00 |", text)
         self.assertIn("| tip | P2 | 0.00500 | 2.00 | 2.00 |", text)
         self.assertIn("| P1 | 1.600 | 1.800 | 1.700 |", text)
-        chart = self.study / "tip_error_against_mesh_size.png"
-        self.assertGreater(chart.stat().st_size, 10000)
+        self.assertIn("| 1 % | P2 | 0.1 | 100 | 1.5 | 0.5 % |", text)
+        for name in ("tip_error_against_mesh_size", "work_precision", "tip_work_precision"):
+            self.assertGreater((self.study / f"{name}.png").stat().st_size, 10000)
+        self.assertFalse((self.study / "tip_error_against_seconds.png").exists())
 
     def test_readme_edited_by_hand(self):
         (self.study / "README.md").write_text(README)
