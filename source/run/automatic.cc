@@ -81,7 +81,7 @@ namespace isochor
               const std::size_t k
                   = trials.make({element,
                                  refinement,
-                                 false,
+                                 {},
                                  true,
                                  first ? patience * trials[*first].trial.seconds : 0.});
               if (!trials[k].converged() && !can_go_on(k))
@@ -95,10 +95,11 @@ namespace isochor
           return {};
         trials[*first].verdict = "pilot";
         choose_strain(*first);
-        const std::size_t second = trials.make({trials[*first].element, refinement, small_strain});
-        if (!can_go_on(second) && !trials[second].converged())
-          return {};
-        return trials[second].converged() ? second : *first;
+        const std::size_t second = trials.make({trials[*first].element, refinement, energy});
+        if (trials[second].converged())
+          return second;
+        failed_refinement = refinement;
+        return can_go_on(second) ? first : std::nullopt;
       }
 
       bool is_mesh_dear(const std::size_t k) const
@@ -125,20 +126,28 @@ namespace isochor
 
       void choose_strain(const std::size_t finite)
       {
-        const Energy energy = trials.scene.material.energy;
-        if (energy == Energy::linear || energy == Energy::linear_as_printed
+        const Energy own = trials.scene.material.energy;
+        if (own == Energy::linear || own == Energy::linear_as_printed
             || trials.scene.material.kappa != KappaConvention::consistent
             || trials.largest_displacement() > small_displacement)
           return;
-        const std::size_t small
-            = trials.make({trials[finite].element, trials[finite].trial.refinement, true, false});
-        if (!trials[small].converged())
+        // Both energies leave the same part of the stress to the pressure, so that on a coarse mesh,
+        // too, they differ by strain alone.
+        const Trial      &at         = trials[finite].trial;
+        const Element    *element    = trials[finite].element;
+        const double      refinement = at.refinement;
+        const std::size_t large = trials.make({element, refinement, Energy::bonet_wood, false});
+        const std::size_t small = trials.make({element, refinement, hookes_law, false});
+        if (!trials[large].converged() || !trials[small].converged())
           return;
         const double change
-            = relative_difference(trials[small].trial.values, trials[finite].trial.values);
-        small_strain          = change < small_strain_share * accuracy;
-        trials[small].verdict = (small_strain ? "pilot: finite strain changes the probe by "
-                                              : "rejected: finite strain changes the probe by ")
+            = relative_difference(trials[small].trial.values, trials[large].trial.values);
+        const bool is_enough = change < small_strain_share * accuracy;
+        if (is_enough)
+          energy = hookes_law;
+        trials[large].verdict = "to compare small strain with";
+        trials[small].verdict = (is_enough ? "pilot: finite strain changes the probe by "
+                                           : "rejected: finite strain changes the probe by ")
                                 + percent(change);
       }
 
@@ -154,7 +163,12 @@ namespace isochor
               best = *other;
             const std::size_t finer = trials.make(next_wish(best));
             if (!trials[finer].converged())
-              break;
+              {
+                if (!can_go_on(finer))
+                  return finer;
+                failed_refinement = trials[finer].trial.refinement;
+                continue;
+              }
             trials[best].verdict = "pilot";
             trials.estimate(finer);
             best = finer;
@@ -173,8 +187,9 @@ namespace isochor
         const Trial &now  = trials[k].trial;
         const double step = predicted(k, dim).refinement / now.refinement;
         return {trials[k].element,
-                now.refinement * std::clamp(step, smallest_step, largest_step),
-                small_strain};
+                std::max(now.refinement * std::clamp(step, smallest_step, largest_step),
+                         smallest_step * failed_refinement),
+                energy};
       }
 
       /// Before a dear run: other elements on meshes of about as many unknowns as run @p best has.
@@ -200,7 +215,7 @@ namespace isochor
           {
             const double      degree = element->displacement.degree;
             const std::size_t k      = trials.make(
-                {element, lead.trial.refinement * lead.trial.degree / degree, small_strain, false});
+                {element, lead.trial.refinement * lead.trial.degree / degree, energy, false});
             if (!trials[k].converged())
               continue;
             trials[k].estimate = relative_difference(trials[k].trial.values, limit)
@@ -241,9 +256,11 @@ namespace isochor
         return text;
       }
 
-      Trials<dim> &trials;
-      const double accuracy;
-      bool         small_strain = false, has_tried_others = false;
+      Trials<dim>          &trials;
+      const double          accuracy;
+      std::optional<Energy> energy; ///< small strain, if that is enough
+      bool                  has_tried_others  = false;
+      double                failed_refinement = 0; ///< of the last mesh on which a run failed
     };
   } // namespace
 

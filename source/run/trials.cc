@@ -80,10 +80,10 @@ namespace isochor
   {
     Scene<dim> run_scene = scene;
     run_scene.mesh       = refined(scene.mesh, wish.refinement);
-    if (wish.small_strain)
+    if (wish.energy)
       {
-        run_scene.material.energy            = Energy::linear;
-        run_scene.material.volumetric_strain = VolumetricStrain::trace;
+        run_scene.material.energy            = *wish.energy;
+        run_scene.material.volumetric_strain = usual_volumetric_strain(*wish.energy);
       }
     Method run_method        = method;
     run_method.element       = *wish.element;
@@ -110,7 +110,7 @@ namespace isochor
     attempt.trial.degree     = wish.element->displacement.degree;
     attempt.trial.refinement = wish.refinement;
     attempt.element          = wish.element;
-    attempt.small_strain     = wish.small_strain;
+    attempt.energy           = wish.energy;
     attempt.words            = words(wish);
     try
       {
@@ -148,7 +148,7 @@ namespace isochor
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < attempts.size(); ++k)
       if (attempts[k].element == attempts[fine].element && attempts[k].converged()
-          && attempts[k].small_strain == attempts[fine].small_strain
+          && attempts[k].energy == attempts[fine].energy
           && attempts[k].trial.refinement < attempts[fine].trial.refinement
           && (!found || attempts[k].trial.refinement > attempts[*found].trial.refinement))
         found = k;
@@ -231,7 +231,11 @@ namespace isochor
       text += ", cells";
     for (const unsigned int blocks : mesh.cells)
       text += " " + std::to_string(blocks);
-    return text + (wish.small_strain ? ", small strain" : "");
+    if (!wish.energy)
+      return text;
+    return text
+           + (*wish.energy == hookes_law ? ", small strain"
+                                         : ", " + energy_names.name(*wish.energy));
   }
 
   template <int dim>
@@ -307,7 +311,7 @@ namespace isochor
         ResultRow row
             = {{"element", attempt.trial.element},
                {"refinement", csv_number(attempt.trial.refinement)},
-               {"strain", attempt.small_strain ? "small" : "finite"},
+               {"strain", attempt.energy == hookes_law ? "small" : "finite"},
                {"run", attempt.words},
                {"unknowns", std::to_string(attempt.result.unknowns)},
                {"newton iterations", std::to_string(attempt.result.march.newton_iterations)},

@@ -8,14 +8,17 @@
 
 namespace isochor
 {
+  /// Hooke's law.
+  inline constexpr Energy hookes_law = Energy::linear;
+
   /// One run, and what is thought of it.
   struct Attempt
   {
     Trial                 trial;
-    const Element        *element      = nullptr;
-    bool                  small_strain = false;
+    const Element        *element = nullptr;
+    std::optional<Energy> energy; ///< in the place of the scene's
     RunResult             result;
-    std::string           words;    ///< element, edge length or blocks, strain
+    std::string           words;    ///< element, edge length or blocks, energy
     std::optional<double> estimate; ///< relative error of the probe
     std::string           verdict;
 
@@ -39,11 +42,11 @@ namespace isochor
     /// What is wanted of a run.
     struct Wish
     {
-      const Element *element      = nullptr;
-      double         refinement   = 1; ///< edge length of the scene's mesh / that of the run
-      bool           small_strain = false;
-      bool           is_kept      = true; ///< the next runs begin with its equilibrium
-      double         time_limit   = 0;    ///< s; 0: the method's
+      const Element        *element    = nullptr;
+      double                refinement = 1; ///< edge length of the scene's mesh / that of the run
+      std::optional<Energy> energy;         ///< in the place of the scene's
+      bool                  is_kept    = true; ///< the next runs begin with its equilibrium
+      double                time_limit = 0;    ///< s; 0: the method's
     };
 
     /// Number of the new attempt. Collective.
@@ -62,7 +65,7 @@ namespace isochor
       return attempts.size();
     }
 
-    /// The finest converged run of the element and strain of run @p fine on a coarser mesh.
+    /// The finest converged run of the element and energy of run @p fine on a coarser mesh.
     std::optional<std::size_t> coarser_than(std::size_t fine) const;
 
     /// Estimates the error of run @p fine from the coarser ones, if there are any.

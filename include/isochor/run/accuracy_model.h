@@ -37,10 +37,11 @@ namespace isochor
 
   /// Relative error of @p fine by Richardson's extrapolation from @p coarse: with trusted_order(), or
   /// with the order that the three runs show, between 1 and the degree + 1, if there is a @p coarsest.
-  double error_by_refinement(const Trial *coarsest,
-                             const Trial &coarse,
-                             const Trial &fine,
-                             unsigned int dim);
+  /// None if the finer mesh is hardly finer.
+  std::optional<double> error_by_refinement(const Trial *coarsest,
+                                            const Trial &coarse,
+                                            const Trial &fine,
+                                            unsigned int dim);
 
   /// A run that could be made.
   struct Prediction
