@@ -1,4 +1,5 @@
-#include <isochor/run/automatic.h>
+#include "planned_run.h"
+
 #include <isochor/run/interrupt.h>
 #include <isochor/run/progress.h>
 #include <isochor/run/result_rows.h>
@@ -27,57 +28,6 @@ namespace isochor
       for (const auto &[path, value] : assignments)
         text += (text.empty() ? "" : ", ") + path.substr(path.rfind('/') + 1) + " " + value;
       return text;
-    }
-
-    /// Values of one planned run.
-    void read_run(dealii::ParameterHandler &prm,
-                  const Invocation         &invocation,
-                  const Assignments        &assignments)
-    {
-      declare_parameters(prm);
-      std::vector<std::string> overrides = invocation.overrides;
-      for (const auto &[path, value] : assignments)
-        overrides.push_back(path + "=" + value);
-      read_parameter_file(prm, invocation.file, overrides);
-    }
-
-    /// What a state depends on: the scene and what discretises it. How it is solved may change.
-    Identity identity_of(dealii::ParameterHandler &prm)
-    {
-      Identity identity = values_of(prm, {"Scene", "Method"});
-      std::erase_if(identity, [](const auto &entry) {
-        return entry.first.starts_with("Method/") && entry.first != "Method/Element"
-               && entry.first != "Method/Stabilisation"
-               && entry.first != "Method/Compliance matrix";
-      });
-      return identity;
-    }
-
-    template <int dim>
-    RunResult
-    run_planned(dealii::ParameterHandler &prm, const Invocation &invocation, RunSettings settings)
-    {
-      const auto scene  = Scene<dim>::parse(prm, fs::absolute(invocation.file).parent_path());
-      const auto method = Method::parse(prm);
-      const auto output = OutputOptions::parse(prm);
-      settings.vtu      = output.vtu;
-      settings.inf_sup |= output.inf_sup;
-      settings.checkpoint_interval = output.checkpoint_interval;
-      settings.identity            = identity_of(prm);
-      if (method.chooses_element)
-        return run_automatic(scene, method, settings, AutomaticOptions::parse(prm));
-      return run(scene, method, settings);
-    }
-
-    RunResult run_planned(const Invocation  &invocation,
-                          const Assignments &assignments,
-                          const RunSettings &settings)
-    {
-      dealii::ParameterHandler prm;
-      read_run(prm, invocation, assignments);
-      if (dimension_of(prm) == 2)
-        return run_planned<2>(prm, invocation, settings);
-      return run_planned<3>(prm, invocation, settings);
     }
 
     /// All runs of a plan, in order, with results written as they come.
@@ -357,15 +307,6 @@ namespace isochor
         }
     }
   } // namespace
-
-  void declare_parameters(dealii::ParameterHandler &prm)
-  {
-    Scene<3>::declare(prm);
-    Method::declare(prm);
-    AutomaticOptions::declare(prm);
-    OutputOptions::declare(prm);
-    StudyOptions::declare(prm);
-  }
 
   ExitCode execute(const Invocation &invocation, MPI_Comm communicator)
   {

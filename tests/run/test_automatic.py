@@ -25,6 +25,25 @@ end
 """
 TRUTH = 6.932e-3
 
+# A thick plate between two smooth walls bends under its weight.
+PLATE = """
+subsection Scene
+  set Mesh             = box(1, 0.1, 0.3)
+  set Cells            = 10, 1, 3
+  set Young's modulus  = 266e3
+  set Poisson ratio    = 0.4999
+  set Density          = 1070
+  set Fixed            = left
+  set Fixed components = back: z; front: z
+  set Gravity          = {gravity}
+  set Probes           = tip: mean displacement y on right; volume: volume; support: reaction y on left
+end
+subsection Method
+  set Element    = {element}
+  set Load steps = 2
+end
+"""
+
 
 class Automatic(IsochorCase):
     def solve(self, text, *arguments, **keywords):
@@ -64,6 +83,20 @@ class Automatic(IsochorCase):
         self.assertNotIn("small strain", large["auto choice"])
         # Proportional to the load, but for the strain of the large one.
         self.assertAlmostEqual(float(row["corner [m]"]) / float(large["corner [m]"]), 1e-4, delta=3e-5)
+
+    def test_plane_strain(self):
+        row, _ = self.solve(PLATE.format(gravity="0, -0.5, 0", element="auto"))
+        self.assertIn("plane strain", row["auto choice"])
+        self.run_isochor(PLATE.format(gravity="0, -0.5, 0", element="Q2-P1"), "--overwrite")
+        solid = read_csv(self.out / "results.csv")[0]
+        # Figures of the body, not per metre; its weight exactly.
+        for column, delta in (("tip [m]", 0.02), ("volume [m^3]", 1e-3), ("support [N]", 1e-6)):
+            self.assertAlmostEqual(float(row[column]) / float(solid[column]), 1, delta=delta)
+        self.assertAlmostEqual(float(row["support [N]"]), 1070 * 0.03 * 0.5, places=4)
+
+    def test_not_plane(self):
+        row, _ = self.solve(PLATE.format(gravity="0, -0.5, 0.1", element="auto"))
+        self.assertNotIn("plane strain", row["auto choice"])
 
     def test_two_ranks(self):
         one, _ = self.solve(COOK.format(traction=6.25e6, accuracy="1%"))
