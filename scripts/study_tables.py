@@ -12,6 +12,8 @@ folder,
   published FILE against FILE     a baseline against published values (see compare_results.py)
   cheapest FILE: PROBE            the cheapest run for each accuracy (see cost_and_accuracy.py)
   failures FILE                   how far each method came, and why no further (see failures.py)
+  automatic FOLDER                Element = auto beside the fixed methods of the scenes' baselines in
+                                  FOLDER (see automatic_tables.py)
 Other blocks are left alone; rerun_study.py fills "baseline".
 """
 
@@ -20,6 +22,7 @@ import re
 import sys
 from pathlib import Path
 
+import automatic_tables
 from compare_results import against_published
 from cost_and_accuracy import cheapest_rows, probe_with_error
 from failures import failures_rows
@@ -102,6 +105,9 @@ def table(folder, what):
         return markdown(*cheapest_rows(study, probe_with_error(study, match[2])))
     if match := re.fullmatch(r"failures (\S+)", what):
         return markdown(*failures_rows(Study(folder / match[1])))
+    if match := re.fullmatch(r"automatic (\S+)", what):
+        return markdown(automatic_tables.HEADER,
+                        automatic_tables.automatic_rows(folder, folder / match[1]))
     return None
 
 

@@ -91,11 +91,12 @@ namespace isochor
     if (wish.time_limit > 0)
       run_method.time_limit = wish.time_limit;
 
-    RunSettings run_settings = settings;
-    run_settings.folder      = folder_of(attempts.size());
-    run_settings.vtu         = std::min(settings.vtu, VtuOutput::final_state);
-    run_settings.show_steps  = false;
-    run_settings.restart     = false;
+    RunSettings run_settings   = settings;
+    run_settings.folder        = folder_of(attempts.size());
+    run_settings.vtu           = std::min(settings.vtu, VtuOutput::final_state);
+    run_settings.show_steps    = false;
+    run_settings.restart       = false;
+    run_settings.most_unknowns = 0; // it is the study's grid that has a limit
     run_settings.checkpoint_interval.reset();
     run_settings.before_output = [&]() {
       if (!has_folder)
@@ -274,8 +275,9 @@ namespace isochor
       {
         write_table();
         on_root_collectively(settings.communicator, [&]() {
-          for (const auto &file : fs::directory_iterator(folder_of(chosen)))
-            fs::rename(file.path(), settings.folder / file.path().filename());
+          if (fs::exists(folder_of(chosen)))
+            for (const auto &file : fs::directory_iterator(folder_of(chosen)))
+              fs::rename(file.path(), settings.folder / file.path().filename());
           for (std::size_t k = 0; k < attempts.size(); ++k)
             fs::remove_all(folder_of(k));
         });

@@ -1,0 +1,55 @@
+"""What Element = auto made of scenes whose fixed methods were measured, too: its estimate, its true error
+and its cost, beside the cheapest fixed method that hindsight knows (cost_and_accuracy.py)."""
+
+from cost_and_accuracy import assured_errors, cheapest, probe_with_error, uncertainty
+from results_table import BadTable, Study, failed, number
+
+HEADER = ["scene", "wanted", "chosen", "estimated error", "true error", "seconds", "cheapest fixed",
+          "its error", "its seconds", "ratio"]
+ACCURACY = "Method/Accuracy"
+
+
+def request_of(row):
+    text = row[ACCURACY]
+    return number(text[:-1]) / 100 if text.endswith("%") else number(text)
+
+
+def percent(value):
+    return "-" if value is None else f"{100 * value:.2g} %"
+
+
+def fixed_words(study, row):
+    sizes = [row[name] for name in study.varied if not name.startswith("Method/")]
+    return ", ".join([study.method(row), *sizes])
+
+
+def automatic_rows(folder, fixed_folder):
+    """The rows of the table: for each baseline_SCENE.csv of FOLDER and each accuracy one. The fixed
+    methods of the scene are in the file of the same name in FIXED_FOLDER."""
+    table = []
+    files = sorted(folder.glob("baseline_*.csv"))
+    if not files:
+        raise BadTable(f"{folder}: holds no baseline_SCENE.csv")
+    for file in files:
+        automatic, fixed = Study(file), Study(fixed_folder / file.name)
+        probe = probe_with_error(automatic)
+        assured = assured_errors(fixed, fixed.runs, probe_with_error(fixed, probe.name))
+        scene = file.stem.removeprefix("baseline_").replace("_", " ")
+        for row in automatic.runs:
+            request = request_of(row)
+            best = cheapest(assured, request)
+            seconds = number(row["seconds total"])
+            error = None if failed(row) else number(row[probe.error])
+            doubt = uncertainty(row, probe)
+            line = [scene, percent(request), row["auto choice"] or row["status"],
+                    percent(number(row["auto estimated error"])),
+                    percent(error) + (f" ± {percent(doubt)}" if doubt > request / 4 else ""),
+                    f"{seconds:.2g}"]
+            if best is None:
+                line += ["none", "-", "-", "-"]
+            else:
+                cost = number(best["seconds total"])
+                line += [fixed_words(fixed, best), percent(abs(number(best[probe.error]))),
+                         f"{cost:.2g}", f"{seconds / cost:.1f}"]
+            table.append(line)
+    return table
