@@ -162,11 +162,13 @@ namespace isochor
     const auto coarse = coarser_than(fine);
     if (!coarse)
       return;
-    const auto coarsest     = coarser_than(*coarse);
-    attempts[fine].estimate = error_by_refinement(coarsest ? &attempts[*coarsest].trial : nullptr,
-                                                  attempts[*coarse].trial,
-                                                  attempts[fine].trial,
-                                                  dim);
+    const auto coarsest = coarser_than(*coarse);
+    // What a mesh hardly finer cannot tell is still known of the coarser one.
+    const auto from_these = error_by_refinement(coarsest ? &attempts[*coarsest].trial : nullptr,
+                                                attempts[*coarse].trial,
+                                                attempts[fine].trial,
+                                                dim);
+    attempts[fine].estimate = from_these ? from_these : attempts[*coarse].estimate;
   }
 
   template <int dim>
