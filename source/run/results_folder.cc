@@ -17,7 +17,8 @@ namespace isochor
     bool is_result(const std::string &name)
     {
       return name.starts_with("run_") || name.starts_with("solution") || name == "results.csv"
-             || name.starts_with("checkpoint_") || name == "steps.csv" || name == parameters_file;
+             || name.starts_with("checkpoint_") || name == "steps.csv" || name == "iterations.csv"
+             || name == parameters_file;
     }
   } // namespace
 
