@@ -8,7 +8,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 
-from chart import FuncFormatter, percent, plt, style  # noqa: E402
+from matplotlib.ticker import FuncFormatter  # noqa: E402
+
+from chart_style import percent, plt, style  # noqa: E402
 from results_table import Study, failed, groups, number  # noqa: E402
 
 
