@@ -1,6 +1,7 @@
 """What the benchmarks of convergence/ share: runs of isochor, medians, the tables of a README.md."""
 
 import argparse
+import contextlib
 import csv
 import datetime
 import os
@@ -45,11 +46,11 @@ def checked(options):
     return options
 
 
-def run(program, scene, settings, ranks=1, limit=None):
+def run(program, scene, settings, ranks=1, limit=None, output=None):
     """The row of results.csv, text by column, of one run of the file SCENE with SETTINGS (values by
     "Section/Key"). One that takes more than LIMIT seconds is asked to end where it is, as by Ctrl-C;
-    the row is None if it does not."""
-    with tempfile.TemporaryDirectory() as folder:
+    the row is None if it does not. The results stay in the folder OUTPUT, if one is given."""
+    with contextlib.nullcontext(output) if output else tempfile.TemporaryDirectory() as folder:
         command = [program, scene, "--output", folder, "--overwrite"]
         for key, value in {"Output/VTU": "none", **settings}.items():
             command += ["--set", f"{key}={value}"]

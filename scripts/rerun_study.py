@@ -139,6 +139,8 @@ def update(folder, results, isochor):
 def command_for(picture, study, output):
     """The program that draws the chart PICTURE (a name without prefix and ending) of STUDY in the
     folder OUTPUT, with arguments; None if no chart is called so."""
+    if picture.endswith("_against_iterations"):
+        return ["iteration_chart.py", output]
     if "_against_" in picture:
         return ["chart.py", output]
     if picture == "failure_map":

@@ -9,6 +9,8 @@ folder,
   orders FILE: PROBE, PROBE       errors on the finest mesh and orders of convergence
   values FILE: COLUMN by SETTING  a figure, a column per value of the setting; behind it may stand
                                   "in percent"
+  figures FILE: COLUMN, COLUMN    a row per run; "tip error %": in percent; "volume ratio
+                                  change %": its difference from 1
   published FILE against FILE     a baseline against published values (see compare_results.py)
   cheapest FILE: PROBE            the cheapest run for each accuracy (see cost_and_accuracy.py)
   failures FILE                   how far each method came, and why no further (see failures.py)
@@ -83,8 +85,36 @@ def values_table(study, column, setting, percent=False):
                      *(f"{short(parameter).lower()} {value}" for value in values)], rows)
 
 
+def figures_table(study, columns):
+    """A row for each run with its varied settings and these figures, as table() is asked for."""
+    wanted = [re.fullmatch(r"(.+?)( change)?( %)?", column).groups()
+              if column not in study.columns else (column, None, None) for column in columns]
+    if unknown := [name for name, _, _ in wanted if name not in study.columns]:
+        raise BadTable(f"no figure named {', '.join(map(repr, unknown))}; the study has "
+                       f"{', '.join(study.columns)}")
+
+    def cell(row, name, change, in_percent):
+        found = number(row[name])
+        if found is None:
+            return row[name] or "-"
+        if in_percent:
+            found = 100 * (found - (1 if change else 0))
+            digits = 3 if change or abs(found) >= 100 else 2
+            return f"{found:.{digits}g} %" if abs(found) < 1000 else f"{found:.0f} %"
+        return row[name] if row[name].isdigit() else figure(found)
+
+    rows = [[*(row[n] for n in study.varied), *(cell(row, *which) for which in wanted)]
+            for row in study.runs]
+    return markdown([*(short(n).lower() for n in study.varied),
+                     *(name + (change or "") for name, change, _ in wanted)], rows)
+
+
 def published_table(entries):
-    rows = [[*entry.settings.values(), f"{entry.expected:.10g}", figure(entry.found, 5),
+    def digits(expected):
+        return max(5, len(f"{expected:.10g}".lstrip("-0.").replace(".", "")) + 1)
+
+    rows = [[*entry.settings.values(), f"{entry.expected:.10g}",
+             figure(entry.found, digits(entry.expected)),
              "not run" if entry.found is None else f"{100 * entry.deviation:+.3f} %"]
             for entry in entries]
     settings = [short(name).lower() for name in entries[0].settings] if entries else []
@@ -98,6 +128,9 @@ def table(folder, what):
         return orders_table(study, [study.probe(name.strip()) for name in match[2].split(",")])
     if match := re.fullmatch(r"values (\S+): (.+?) by (.+?)( in percent)?", what):
         return values_table(Study(folder / match[1]), match[2], match[3], bool(match[4]))
+    if match := re.fullmatch(r"figures (\S+): (.+)", what):
+        return figures_table(Study(folder / match[1]),
+                             [name.strip() for name in match[2].split(",")])
     if match := re.fullmatch(r"published (\S+) against (\S+)", what):
         return published_table(against_published(Study(folder / match[1]), folder / match[2]))
     if match := re.fullmatch(r"cheapest (\S+): (.+)", what):

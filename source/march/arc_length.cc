@@ -139,6 +139,7 @@ namespace isochor
       trial  = here;
       trial.add(step_control.step(), tangent);
       correct(trial);
+      control.tell(trial.load, newton);
       if (newton.outcome != NewtonOutcome::converged)
         return;
 
@@ -165,6 +166,7 @@ namespace isochor
       NewtonProblem::Size now = control.residual(trial.x, trial.load, residual, size);
       if (!now.admissible)
         return fail(NewtonOutcome::inverted, "the predicted state has inverted cells");
+      newton.iterates.push_back({0, now, 0.});
       while (true)
         {
           newton.merit = now.merit;
@@ -204,6 +206,7 @@ namespace isochor
           if (halving > limits.max_halvings)
             return fail(NewtonOutcome::inverted, "every step along the path inverts a cell");
           trial = next;
+          newton.iterates.push_back({newton.iterations, now, length});
           if (control.callbacks.interrupted())
             return fail(NewtonOutcome::interrupted, "interrupted");
         }

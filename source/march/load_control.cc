@@ -64,10 +64,28 @@ namespace isochor
   }
 
   template <int dim>
+  void LoadControl<dim>::tell(const double load, const NewtonReport &newton) const
+  {
+    if (callbacks.solved)
+      callbacks.solved(load, newton);
+  }
+
+  template <int dim>
   NewtonReport LoadControl<dim>::solve(const double          load,
                                        Vector               &x,
                                        ResidualSize         &size,
                                        const CurvatureFilter filter) const
+  {
+    NewtonReport report = iterate(load, x, size, filter);
+    tell(load, report);
+    return report;
+  }
+
+  template <int dim>
+  NewtonReport LoadControl<dim>::iterate(const double          load,
+                                         Vector               &x,
+                                         ResidualSize         &size,
+                                         const CurvatureFilter filter) const
   {
     if (callbacks.solve)
       return callbacks.solve(load, size, x);

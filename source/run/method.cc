@@ -298,6 +298,12 @@ namespace isochor
                       "Also compute the inf-sup constant and the number of spurious pressure modes "
                       "of a mixed element, at rest and in the final state (--inf-sup asks for the "
                       "same). Several factorisations each.");
+    prm.declare_entry("Iterations",
+                      "false",
+                      dealii::Patterns::Bool(),
+                      "Also write iterations.csv, with a row per iteration of Newton's method, or "
+                      "of dual ascent, of converged and failed load steps. Not of coarser meshes "
+                      "(Nested levels).");
     prm.leave_subsection();
   }
 
@@ -308,6 +314,7 @@ namespace isochor
     options.folder              = prm.get("Folder");
     options.vtu                 = vtu_output_names.value(prm.get("VTU"), "Output/VTU");
     options.inf_sup             = prm.get_bool("Inf-sup test");
+    options.iterations          = prm.get_bool("Iterations");
     options.checkpoint_interval = parse_checkpoint(trim(prm.get("Checkpoint")));
     prm.leave_subsection();
     return options;

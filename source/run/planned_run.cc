@@ -73,6 +73,7 @@ namespace isochor
       const auto output = OutputOptions::parse(prm);
       settings.vtu      = output.vtu;
       settings.inf_sup |= output.inf_sup;
+      settings.iterations          = output.iterations;
       settings.checkpoint_interval = output.checkpoint_interval;
       settings.identity            = identity_of(prm);
       if (method.chooses_element)

@@ -18,7 +18,7 @@ namespace isochor
     {
       return name.starts_with("run_") || name.starts_with("solution") || name == "results.csv"
              || name.starts_with("checkpoint_") || name.starts_with("trial_") || name == "steps.csv"
-             || name == "automatic.csv" || name == parameters_file;
+             || name == "iterations.csv" || name == "automatic.csv" || name == parameters_file;
     }
   } // namespace
 

@@ -1,11 +1,10 @@
 #include <isochor/core/text.h>
-#include <isochor/output/results_csv.h>
 #include <isochor/output/vtu.h>
 #include <isochor/run/interrupt.h>
 #include <isochor/run/nested.h>
 #include <isochor/run/progress.h>
-#include <isochor/run/result_rows.h>
 #include <isochor/run/saved_run.h>
+#include <isochor/run/step_tables.h>
 #include <isochor/run/turns.h>
 #include <isochor/run/warnings.h>
 #include <isochor/space/interpolation.h>
@@ -76,56 +75,6 @@ namespace isochor
         seconds[k] = stopwatch.seconds(static_cast<Phase>(k));
       return seconds;
     }
-
-    /// Load-displacement history: steps.csv.
-    class StepTable
-    {
-    public:
-      /// The first @p n_kept rows of an interrupted run stay.
-      StepTable(const RunSettings              &settings,
-                const std::vector<ProbeColumn> &columns,
-                const std::size_t               n_kept)
-        : columns(columns)
-        , csv(settings.communicator, file(settings), kept(file(settings), n_kept))
-      {
-      }
-
-      void add(const LoadStep                  &step,
-               const std::optional<DualReport> &dual,
-               const std::vector<double>       &values)
-      {
-        ResultRow row = {
-            {"step", std::to_string(step.number)},
-            {"load factor", csv_number(step.load)},
-            {"newton iterations", std::to_string(step.newton.iterations)},
-            {"residual", csv_number(step.newton.merit)},
-            {"min J", csv_number(step.size.min_jacobian)},
-            {"negative pivots excess", step.pivot_excess ? std::to_string(*step.pivot_excess) : ""},
-            {"seconds", csv_number(step.seconds)}};
-        for (const auto &[name, count] : dual_columns(dual))
-          row.emplace_back(name, count);
-        for (std::size_t k = 0; k < columns.size(); ++k)
-          row.emplace_back(columns[k].title(), csv_number(values[k]));
-        csv.add(row);
-      }
-
-    private:
-      static std::filesystem::path file(const RunSettings &settings)
-      {
-        return settings.folder / "steps.csv";
-      }
-      static std::vector<ResultRow> kept(const std::filesystem::path &file, const std::size_t n)
-      {
-        if (n == 0)
-          return {};
-        auto rows = read_results(file);
-        rows.resize(std::min(n, rows.size()));
-        return rows;
-      }
-
-      const std::vector<ProbeColumn> &columns;
-      ResultsCsv                      csv;
-    };
   } // namespace
 
   template <int dim>
@@ -211,7 +160,11 @@ namespace isochor
 
     VtuSeries<dim> vtu(discretisation, scene.material, settings.folder);
     vtu.resume(earlier.pictures);
-    StepTable  steps(settings, probes.columns(), earlier.march.report.load_steps);
+    const unsigned int            n_kept = earlier.march.report.load_steps;
+    StepTable                     steps(settings, probes.columns(), n_kept);
+    std::optional<IterationTable> iterations;
+    if (settings.iterations)
+      iterations.emplace(settings, n_kept);
     const auto measure = [&](const double load) {
       equilibrium.residual(state, load, scratch, &reactions);
       return probes.measure(state, reactions, load);
@@ -245,11 +198,18 @@ namespace isochor
           result.dual = result.dual ? most(*result.dual, *dual) : *dual;
         }
       steps.add(step, dual, measure(step.load));
+      if (iterations)
+        iterations->step_converged();
       if (settings.vtu == VtuOutput::every_step)
         vtu.write(state, step.load, step.number);
       if (talks)
         print_step(step);
     };
+    if (iterations)
+      callbacks.solved = [&](const double load, const NewtonReport &newton) {
+        const auto scope = stopwatch.measure(Phase::output);
+        iterations->add(load, newton, dual_ascent ? &dual_ascent->report() : nullptr);
+      };
     callbacks.failed = [&](const double load, const NewtonReport &report, const double next_step) {
       if (talks)
         print_failed_step(load, report, next_step);

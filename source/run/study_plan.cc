@@ -139,9 +139,6 @@ namespace isochor
     prm.loop(collector);
     for (Assignments &assignments : collector.grid)
       {
-        // Keys that only a reference changes: the file's own value for the others.
-        dealii::ParameterHandler plain;
-        declare_parameters(plain);
         std::vector<std::string> all = overrides;
         for (const auto &[path, value] : assignments)
           all.push_back(path + "=" + value);
@@ -150,11 +147,13 @@ namespace isochor
              {std::pair("Reference", reference), std::pair("Reference check", check)})
           for (const auto &[path, value] : pairs)
             {
+              dealii::ParameterHandler scratch;
+              declare_parameters(scratch);
               std::vector<std::string> with = all;
               with.push_back(path + "=" + value);
               try
                 {
-                  read_parameter_file(plain, file, with);
+                  read_parameter_file(scratch, file, with);
                 }
               catch (const UserError &error)
                 {
@@ -165,6 +164,10 @@ namespace isochor
                                   + text.substr(override.size()));
                 }
             }
+        // Keys that only a reference changes: the file's own value for the others, or the default,
+        // which a handler that has read a reference's value does not know any more.
+        dealii::ParameterHandler plain;
+        declare_parameters(plain);
         read_parameter_file(plain, file, all);
         plan.has_automatic |= plain.get({"Method"}, "Element") == automatic_element;
         for (const std::string &path : plan.keys)

@@ -276,6 +276,7 @@ namespace isochor
       return total;
     };
 
+    double       length        = 0.;
     NewtonReport newton_report = primal(load, first_primal_target, interrupted, at);
     while (true)
       {
@@ -285,15 +286,18 @@ namespace isochor
         if (newton_report.outcome != NewtonOutcome::converged)
           return failed(newton_report.outcome, "primal problem: " + newton_report.reason);
 
-        const Evaluated here = evaluate(load, at);
-        size                 = here.size;
-        total.merit          = std::hypot(size.force, size.constraint);
+        const Evaluated here      = evaluate(load, at);
+        size                      = here.size;
+        total.merit               = std::hypot(size.force, size.constraint);
+        const double target_merit = std::max(newton_options.tolerance, size.rounding);
+        total.iterates.push_back({counts.iterations, {total.merit, target_merit}, length});
+        counts.volume_errors.push_back(here.volume_error);
         for (auto [count, bound] : {std::pair(&counts.to_one_percent, one_percent),
                                     std::pair(&counts.to_hundredth_percent, hundredth_percent)})
           if (*count == 0 && here.volume_error <= bound)
             *count = counts.iterations;
         // Written so that NaN goes on, and fails below.
-        if (total.merit <= std::max(newton_options.tolerance, size.rounding))
+        if (total.merit <= target_merit)
           {
             state = at.state;
             return total;
@@ -324,9 +328,9 @@ namespace isochor
                             "ratio may hold the body");
           }
 
-        double       length = next.slope / ascent.curvature;
         DualIterate  trial;
         unsigned int halving = 0;
+        length               = next.slope / ascent.curvature;
         for (; halving <= max_halvings; ++halving, length *= 0.5)
           {
             trial = from;

@@ -178,6 +178,7 @@ namespace isochor
       here.size = problem.residual(here.x, here.residual);
       if (!here.is_admissible())
         return finished(NewtonOutcome::inverted, "the initial state has inverted cells");
+      report.iterates.push_back({0, here.size, 0.});
       trial = best = here;
       forcing      = options.largest_linear_tolerance;
       while (true)
@@ -226,6 +227,7 @@ namespace isochor
           // While prescribed values move, residuals of different boundary positions do not compare.
           const bool comparable = size.gap == 0.;
           std::swap(here, trial);
+          report.iterates.push_back({report.iterations, here.size, length});
           if (problem.accepted(report.iterations, here.size, length))
             return finished(NewtonOutcome::interrupted, "interrupted");
           keep_or_return(comparable);

@@ -53,6 +53,12 @@ class BenchmarkRuns(unittest.TestCase):
         with self.assertRaisesRegex(benchmark_runs.Failed, "exit code 1(.|\n)*no such element"):
             self.run_with({"Method/Element": "P9"})
 
+    def test_results_stay_where_they_are_wanted(self):
+        kept = self.folder / "kept"
+        kept.mkdir()
+        benchmark_runs.run(self.isochor, self.folder / "scene.prm", {}, output=kept)
+        self.assertTrue((kept / "results.csv").is_file())
+
     def test_all_is_run_before_anything_is_run_again(self):
         seconds = {("a", "x"): [3., 1., 2.], ("b", "x"): [9., 7., 8.]}
         order = []

@@ -39,6 +39,8 @@ README = """# A beam
 <!-- end -->
 <!-- begin: cheapest baseline.csv: tip -->
 <!-- end -->
+<!-- begin: figures baseline.csv: unknowns, tip error %, tip [m] change % -->
+<!-- end -->
 ![Error](tip_error_against_mesh_size.png)
 ![Work](work_precision.png) ![The same](tip_work_precision.png) ![By hand](picture.png)
 """
@@ -152,6 +154,8 @@ class RerunStudy(unittest.TestCase):
         for name in ("tip_error_against_mesh_size", "work_precision", "tip_work_precision"):
             self.assertGreater((self.study / f"{name}.png").stat().st_size, 10000)
         self.assertFalse((self.study / "tip_error_against_seconds.png").exists())
+        self.assertIn("| mesh size | element | unknowns | tip error | tip [m] change |", text)
+        self.assertIn("| 0.1 | P1 | 100 | 5 % | 70 % |", text)
 
     def test_readme_edited_by_hand(self):
         (self.study / "README.md").write_text(README)

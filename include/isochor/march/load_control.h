@@ -27,6 +27,9 @@ namespace isochor
     /// many. Collective.
     NewtonReport solve(double load, Vector &x, ResidualSize &size, CurvatureFilter filter) const;
 
+    /// That a solution was tried at @p load.
+    void tell(double load, const NewtonReport &newton) const;
+
     /// At the end of a march, with its last converged @p state: count negative pivots there and,
     /// if there is no reason against it, call it converged. Collective.
     void finish(const Vector &state, MarchReport &report) const;
@@ -36,6 +39,9 @@ namespace isochor
     NewtonOptions           newton_options;
     const MarchCallbacks   &callbacks;
     Stopwatch              &stopwatch;
+
+  private:
+    NewtonReport iterate(double load, Vector &x, ResidualSize &size, CurvatureFilter filter) const;
   };
 
   /// Why a step failed, the likely cause first: unstable, singular tangent, inverted cell, no

@@ -94,6 +94,9 @@ namespace isochor
     std::function<void(double load, const NewtonReport &, double next_step)> failed;
     /// Asks to stop.
     std::function<bool()> interrupted;
+    /// After each solution that was tried, converged or not, before the step itself is told of. May
+    /// be empty.
+    std::function<void(double load, const NewtonReport &)> solved;
     /// After each converged step but the last: from there the march can go on another time. May
     /// be empty.
     std::function<void(const MarchState &)> resumable;

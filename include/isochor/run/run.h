@@ -64,10 +64,11 @@ namespace isochor
   struct RunSettings
   {
     MPI_Comm              communicator;
-    std::filesystem::path folder; ///< for VTU files and steps.csv; exists
+    std::filesystem::path folder; ///< for VTU files and tables; exists
     VtuOutput             vtu        = VtuOutput::every_step;
     bool                  check_only = false;       ///< everything up to the first load step
     bool                  inf_sup    = false;       ///< test at rest and in the final state
+    bool                  iterations = false;       ///< write iterations.csv
     bool                  show_steps = false;       ///< a line per load step on std::cout of rank 0
     std::optional<double> checkpoint_interval = 0.; ///< as in OutputOptions
     /// A larger problem is left out. 0: none is too large.

@@ -56,9 +56,10 @@ namespace isochor
   {
     unsigned int iterations = 0;
     /// Until the volume error was at most 1 % and 0.01 %; 0: never.
-    unsigned int to_one_percent = 0, to_hundredth_percent = 0;
+    unsigned int        to_one_percent = 0, to_hundredth_percent = 0;
+    std::vector<double> volume_errors = {}; ///< after each iteration
   };
-  /// The larger of each count.
+  /// The larger of each count; no volume errors.
   DualReport most(const DualReport &a, const DualReport &b);
 
   template <int dim>
@@ -77,7 +78,7 @@ namespace isochor
 
     /// The equilibrium at @p load, from @p state, to the tolerance of Newton's method on forces and
     /// constraints. On failure @p state is of no use. The report counts the iterations of Newton's
-    /// method on the primal problems. Collective.
+    /// method on the primal problems; its iterates are the dual ones. Collective.
     NewtonReport
     solve(double load, const std::function<bool()> &interrupted, ResidualSize &size, Vector &state);
 

@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <limits>
+#include <vector>
 
 namespace dealii
 {
@@ -86,6 +87,14 @@ namespace isochor
     interrupted
   };
 
+  /// A state on the way.
+  struct NewtonIterate
+  {
+    unsigned int        iteration = 0; ///< = linear systems solved until then
+    NewtonProblem::Size size;
+    double              step_length = 0; ///< of the step that led there; 0: the one begun with
+  };
+
   struct NewtonReport
   {
     NewtonOutcome outcome    = NewtonOutcome::converged;
@@ -94,6 +103,8 @@ namespace isochor
     unsigned int  halvings   = 0;
     double        merit      = 0; ///< last
     std::string   reason;         ///< in words, empty if converged
+    /// The first one and all accepted ones, also those that the watchdog went back from.
+    std::vector<NewtonIterate> iterates;
   };
 
   /// On failure @p x is left at the last accepted iterate.
