@@ -15,7 +15,7 @@ namespace isochor
     /// scene's own mesh.
     constexpr double coarsest_generated = 0.125, coarsest_meshed = 0.25, finest_pilot = 1.;
     /// From pilot to pilot, and bounds of what a prediction asks for.
-    constexpr double pilot_step = 1.5, largest_step = 2., smallest_step = 1.4;
+    constexpr double pilot_step = 1.5, largest_step = 1.6, smallest_step = 1.4;
     /// A pilot that takes longer than this many times the one before is given up.
     constexpr double patience = 3.;
     /// Part of a run's seconds from which on its mesh is what is dear about it.
