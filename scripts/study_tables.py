@@ -14,6 +14,7 @@ folder,
   published FILE against FILE     a baseline against published values (see compare_results.py)
   cheapest FILE: PROBE            the cheapest run for each accuracy (see cost_and_accuracy.py)
   failures FILE                   how far each method came, and why no further (see failures.py)
+  ratios                          the first probe over the truth, for each scene (see ratio_tables.py)
   automatic FOLDER                Element = auto beside the fixed methods of the scenes' baselines in
                                   FOLDER (see automatic_tables.py)
 Other blocks are left alone; rerun_study.py fills "baseline".
@@ -28,6 +29,7 @@ import automatic_tables
 from compare_results import against_published
 from cost_and_accuracy import cheapest_rows, probe_with_error
 from failures import failures_rows
+from ratio_tables import ratio_rows
 from results_table import BadTable, Study, failed, groups, number, short
 
 BLOCK = re.compile(r"(<!-- begin: (.*?) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
@@ -138,6 +140,8 @@ def table(folder, what):
         return markdown(*cheapest_rows(study, probe_with_error(study, match[2])))
     if match := re.fullmatch(r"failures (\S+)", what):
         return markdown(*failures_rows(Study(folder / match[1])))
+    if what == "ratios":
+        return markdown(*ratio_rows(folder))
     if match := re.fullmatch(r"automatic (\S+)", what):
         return markdown(automatic_tables.HEADER,
                         automatic_tables.automatic_rows(folder, folder / match[1]))

@@ -157,7 +157,7 @@ namespace isochor
         settings.restart    = invocation.restart;
         if (plan.is_study())
           {
-            if (plan.runs[index].in_grid)
+            if (!is_reference(index))
               settings.most_unknowns = plan.most_unknowns;
             if (is_finer_than_left_out(index))
               {
@@ -185,12 +185,19 @@ namespace isochor
           }
       }
 
+      bool is_reference(const std::size_t index) const
+      {
+        return std::ranges::any_of(plan.runs, [&](const PlannedRun &run) {
+          return run.reference == index || run.check == index;
+        });
+      }
+
       /// Saves making a mesh whose size is known beforehand.
       bool is_finer_than_left_out(const std::size_t index) const
       {
         const Assignments own  = plan.runs[index].assignments;
         const auto        size = own.find("Scene/Mesh size");
-        if (size == own.end() || !plan.runs[index].in_grid)
+        if (size == own.end() || is_reference(index))
           return false;
         const double edge = dealii::Utilities::string_to_double(size->second);
         for (std::size_t k = 0; k < results.size(); ++k)
