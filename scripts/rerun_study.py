@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Re-runs a study of convergence/ and compares it with its baseline.
 
-  rerun_study.py NAME... | all [--isochor PATH] [--output FOLDER] [--update]
+  rerun_study.py NAME... | all [--isochor PATH] [--output FOLDER] [--update] [--jobs N]
 
 convergence/NAME holds README.md and one or more parts: study.prm with baseline.csv, and any other
 STEM.prm with baseline_STEM.csv. If there are published values, expected.csv or expected_STEM.csv,
-they are compared, too (compare_results.py says how). Every part runs on one rank and one thread.
+they are compared, too (compare_results.py says how). Every part runs on one rank and one thread, N of
+them at a time; seconds are best measured with one.
 
 Exit code 0 if nothing deviates, else 1, with a table of what does. --update makes what was found the
 baseline instead: the tables, the date, the machine and the charts that the README shows, too;
@@ -20,6 +21,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from compare_results import against_published, compare
@@ -174,13 +176,21 @@ def draw(folder, results):
                 shutil.copyfile(chart, folder / f"{part.chart_prefix}{picture}.png")
 
 
-def rerun(folder, options, scratch):
-    """The number of deviations."""
-    results = []
+def start(pool, folder, options, scratch):
+    """The parts of a study: (part, its results to come, output folder)."""
+    started = []
     for part in parts_of(folder):
         output = scratch / folder.name / part.file.stem
         output.mkdir(parents=True, exist_ok=True)
-        study = run(part, options.isochor, output)
+        started.append((part, pool.submit(run, part, options.isochor, output), output))
+    return started
+
+
+def evaluate(folder, started, options):
+    """The number of deviations."""
+    results = []
+    for part, to_come, output in started:
+        study = to_come.result()
         results.append((part, study, output))
         print(f"{part.name}: {seconds(study):.1f} s", flush=True)
     bad = sum(check_published(part, study) for part, study, _ in results)
@@ -217,6 +227,8 @@ def main():
                         help="the program, a Release build (default: build/release/isochor)")
     parser.add_argument("--output", type=Path, help="keep the results there")
     parser.add_argument("--update", action="store_true", help="make the results the baseline")
+    parser.add_argument("--jobs", type=int, choices=range(1, 65), default=1, metavar="N",
+                        help="parts that run at a time (default: 1)")
     parser.add_argument("--studies", type=Path, default=ROOT / "convergence",
                         help="folder of the studies (default: convergence)")
     options = parser.parse_args()
@@ -227,7 +239,13 @@ def main():
         folders = find_studies(options.names, options.studies.resolve())
         with tempfile.TemporaryDirectory() as scratch:
             place = options.output.resolve() if options.output else Path(scratch)
-            bad = sum(rerun(folder, options, place) for folder in folders)
+            with ThreadPoolExecutor(options.jobs) as pool:
+                try:
+                    started = [start(pool, folder, options, place) for folder in folders]
+                    bad = sum(evaluate(folder, parts, options)
+                              for folder, parts in zip(folders, started))
+                finally:  # after an error no other part begins
+                    pool.shutdown(wait=False, cancel_futures=True)
     except (Failed, BadTable, OSError) as error:
         sys.exit(f"rerun_study.py: error: {error}")
     print("nothing deviates" if not bad else f"{bad} deviations")

@@ -169,10 +169,12 @@ class RerunStudy(unittest.TestCase):
         other.mkdir()
         (other / "study.prm").write_text("")
         write(other / "baseline.csv", self.changed("tip [m]", 5))
-        result = self.run_script(ROWS, "all")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("beam: 6 runs, 0 deviations", result.stdout)
-        self.assertIn("plate: 6 runs, 1 deviations", result.stdout)
+        for jobs in ("1", "3"):
+            with self.subTest(jobs=jobs):
+                result = self.run_script(ROWS, "all", "--jobs", jobs)
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("beam: 6 runs, 0 deviations", result.stdout)
+                self.assertIn("plate: 6 runs, 1 deviations", result.stdout)
 
     def refused(self, result, *words):
         self.assertEqual(result.returncode, 1)
