@@ -166,6 +166,8 @@ namespace isochor
               {
                 if (!can_go_on(finer))
                   return finer;
+                if (trials[finer].result.reason.starts_with(time_limit_words))
+                  break; // a finer mesh would take longer
                 failed_refinement = trials[finer].trial.refinement;
                 continue;
               }

@@ -235,8 +235,8 @@ namespace isochor
     if (is_late && result.march.status == RunStatus::interrupted)
       {
         result.march.status = RunStatus::not_converged;
-        result.march.reason
-            = "time limit of " + to_text(method.time_limit) + " s: " + result.march.reason;
+        result.march.reason = std::string(time_limit_words) + " of " + to_text(method.time_limit)
+                              + " s: " + result.march.reason;
       }
     result.coarse_newton_iterations = nested.newton_iterations;
     result.warnings.insert(result.warnings.end(), nested.remarks.begin(), nested.remarks.end());

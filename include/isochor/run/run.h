@@ -58,6 +58,9 @@ namespace isochor
   /// Status of a run of a study whose input is bad.
   inline constexpr const char *refused = "refused";
 
+  /// What the reason of a run begins with that Method/Time limit has ended.
+  inline constexpr const char *time_limit_words = "time limit";
+
   /// Status of a run that is larger than RunSettings::most_unknowns.
   inline constexpr const char *left_out = "left out";
 
