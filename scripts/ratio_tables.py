@@ -19,8 +19,9 @@ def ratio_rows(folder):
         if truth is None:
             raise BadTable(f"{file}: its reference has no value of {probe.name}")
         value = number(truth[probe.column])
+        doubt = max(uncertainty(row, probe) for row in study.runs + study.reference)
         line = [file.stem.removeprefix("baseline_").replace("_", " "), probe.name,
-                f"{value:.4g} {probe.unit}", f"{100 * uncertainty(truth, probe):.1g} %"]
+                f"{value:.4g} {probe.unit}", f"{100 * doubt:.1g} %"]
         by_method = {study.method(row): row for row in study.runs}
         for method in methods:
             row = by_method.get(method)
