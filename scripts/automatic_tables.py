@@ -14,6 +14,10 @@ def request_of(row):
     return number(text[:-1]) / 100 if text.endswith("%") else number(text)
 
 
+def figure(value):
+    return f"{value:.2g}" if value < 100 else f"{value:.0f}"
+
+
 def percent(value):
     return "-" if value is None else f"{100 * value:.2g} %"
 
@@ -44,12 +48,12 @@ def automatic_rows(folder, fixed_folder):
             line = [scene, percent(request), row["auto choice"] or row["status"],
                     percent(number(row["auto estimated error"])),
                     percent(error) + (f" ± {percent(doubt)}" if doubt > request / 4 else ""),
-                    f"{seconds:.2g}"]
+                    figure(seconds)]
             if best is None:
                 line += ["none", "-", "-", "-"]
             else:
                 cost = number(best["seconds total"])
                 line += [fixed_words(fixed, best), percent(abs(number(best[probe.error]))),
-                         f"{cost:.2g}", f"{seconds / cost:.1f}"]
+                         figure(cost), f"{seconds / cost:.1f}"]
             table.append(line)
     return table
