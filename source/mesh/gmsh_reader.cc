@@ -261,8 +261,7 @@ namespace isochor
 
   namespace
   {
-    /// Of the cells that their curved edges turn inside out, mend those that can be mended; sound ones
-    /// stay as they are. What is left is told by the check of the mesh.
+    /// Mend tetrahedra that their curved edges turn inside out, as far as gmsh can.
     void untangle()
     {
       gmsh::option::setNumber("Mesh.HighOrderThresholdMin", 0.01);
@@ -271,14 +270,14 @@ namespace isochor
         {
           gmsh::model::mesh::optimize("HighOrder");
         }
-      catch (...) // gmsh throws if a cell is left
+      catch (...) // thrown if a cell is left; the check of the mesh has better words
         {
         }
     }
   } // namespace
 
   template <int dim>
-  RawMesh<dim> read_with_gmsh(const MeshRequest &request)
+  RawMesh<dim> read_with_gmsh(const MeshRequest &request, const bool untangles)
   {
     const std::string origin = "Mesh '" + request.source + "'";
     const std::string ending = check_file(request.source);
@@ -298,7 +297,7 @@ namespace isochor
             {
               gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
               gmsh::model::mesh::setOrder(2);
-              if (request.kind == CellKind::simplex) // of hexahedra it takes long
+              if (untangles)
                 untangle();
             }
         });
@@ -312,6 +311,6 @@ namespace isochor
     return mesh;
   }
 
-  template RawMesh<2> read_with_gmsh<2>(const MeshRequest &);
-  template RawMesh<3> read_with_gmsh<3>(const MeshRequest &);
+  template RawMesh<2> read_with_gmsh<2>(const MeshRequest &, bool);
+  template RawMesh<3> read_with_gmsh<3>(const MeshRequest &, bool);
 } // namespace isochor

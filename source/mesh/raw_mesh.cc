@@ -7,13 +7,50 @@
 
 namespace isochor
 {
+  namespace
+  {
+    /// Checked. Tetrahedra that their curved edges invert are untangled, where that makes a sound mesh
+    /// of them; of hexahedra it takes long.
+    template <int dim>
+    RawMesh<dim> read_sound(const MeshRequest &request, const std::string &origin)
+    {
+      RawMesh<dim> mesh = read_with_gmsh<dim>(request);
+      try
+        {
+          check_and_complete(mesh, origin);
+          return mesh;
+        }
+      catch (const UserError &)
+        {
+          if (request.geometry_order == 1 || request.kind != CellKind::simplex
+              || !request.source.ends_with(".geo"))
+            throw;
+          mesh = read_with_gmsh<dim>(request, true);
+          try
+            {
+              check_and_complete(mesh, origin);
+              return mesh;
+            }
+          catch (const UserError &)
+            {
+            }
+          throw; // what is wrong with the mesh as it was
+        }
+    }
+  } // namespace
+
   template <int dim>
   RawMesh<dim> make_raw_mesh(const MeshRequest &request)
   {
-    RawMesh<dim> mesh
-        = is_generator(request.source) ? generate<dim>(request) : read_with_gmsh<dim>(request);
     const std::string origin = "Mesh '" + request.source + "'";
-    check_and_complete(mesh, origin);
+    RawMesh<dim>      mesh;
+    if (is_generator(request.source))
+      {
+        mesh = generate<dim>(request);
+        check_and_complete(mesh, origin);
+      }
+    else
+      mesh = read_sound<dim>(request, origin);
     // Only now: deal.II expects sound cells.
     if (!is_generator(request.source)) // whose edges are directed alike
       direct_edges_alike(mesh);

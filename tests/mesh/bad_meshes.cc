@@ -223,7 +223,7 @@ int main()
   refuse<3>("curved cells too large for a thin wall",
             "thin.geo",
             "SetFactory(\"OpenCASCADE\"); Cylinder(1) = {0, 0, 0, 0, 0, 1, 1};\n"
-            "Cylinder(2) = {0, 0, 0, 0, 0, 1, 0.95};\n"
+            "Cylinder(2) = {0, 0, 0, 0, 0, 1, 0.99};\n"
             "BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };\n"
             "outer() = Surface In BoundingBox{-1.1, -1.1, -0.1, 1.1, 1.1, 1.1};\n"
             "Physical Surface(\"skin\") = outer();\n",

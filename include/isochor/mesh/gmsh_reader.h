@@ -16,7 +16,8 @@ namespace isochor
   /// come out near it; gmsh's Delaunay makes those inside a body longer, up to 1.3 times in the mean
   /// of a fine mesh. The same file and
   /// size give the same mesh each time. Not for several threads at once: gmsh is one global state.
-  /// Throws UserError naming the file.
+  /// Throws UserError naming the file. @p untangles: gmsh mends what it can of the tetrahedra of a
+  /// .geo file that quadratic edges turn inside out.
   template <int dim>
-  RawMesh<dim> read_with_gmsh(const MeshRequest &request);
+  RawMesh<dim> read_with_gmsh(const MeshRequest &request, bool untangles = false);
 } // namespace isochor
