@@ -10,6 +10,16 @@ namespace isochor
   {
     /// Of edge lengths: nearer meshes differ by chance, not by refinement.
     constexpr double least_ratio = 1.05;
+
+    /// Do the values go back where they came from? Then no order is seen in them, and a difference may be
+    /// small by chance.
+    bool turns(const Trial &coarsest, const Trial &coarse, const Trial &fine)
+    {
+      double product = 0;
+      for (std::size_t k = 0; k < fine.values.size(); ++k)
+        product += (fine.values[k] - coarse.values[k]) * (coarse.values[k] - coarsest.values[k]);
+      return product < 0;
+    }
   } // namespace
 
   double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
@@ -49,14 +59,19 @@ namespace isochor
     if (!(ratio > least_ratio))
       return {};
     double       order  = trusted_order(fine.degree);
-    const double change = relative_difference(coarse.values, fine.values);
+    double       change = relative_difference(coarse.values, fine.values);
     const double best   = fine.degree + 1.;
     double       least  = 0; // no smaller than the best order lets the error become
     if (coarsest != nullptr)
       {
         const double before       = relative_difference(coarsest->values, coarse.values);
         const double ratio_before = edge_ratio(*coarsest, coarse, dim);
-        if (ratio_before > least_ratio && before > 0)
+        if (turns(*coarsest, coarse, fine))
+          {
+            order  = 1.;
+            change = std::max(change, before);
+          }
+        else if (ratio_before > least_ratio && before > 0)
           {
             // Differences fall as the order says: e(h) = C h^q gives before / change.
             const double seen = std::log(before / std::max(change, 1e-300))

@@ -49,6 +49,11 @@ int main()
   std::cout << "lucky: from two " << *error_by_refinement(nullptr, second, lucky, dim)
             << ", from three more than a hundredth of a per cent: "
             << testing::yes(*error_by_refinement(&first, second, lucky, dim) > 1e-4) << '\n';
+  // To and fro: 1.01, 0.99, 0.995; the larger difference, 2 %, by first order.
+  Trial there = trial(2, 1, 0, 1), back = trial(2, 1.5, 0, 1), again = trial(2, 2.25, 0, 1);
+  there.values = {1.01}, back.values = {0.99}, again.values = {0.995};
+  std::cout << "to and fro: " << *error_by_refinement(&there, back, again, dim)
+            << ", 2 % / 0.99 / (1.5 - 1) = " << 0.02 / 0.99 / 0.5 << '\n';
   std::cout << "a mesh no finer tells nothing: "
             << testing::yes(
                    !error_by_refinement(nullptr, trial(2, 1, 1, 1), trial(2, 1.01, 1, 1), dim))

@@ -37,7 +37,8 @@ namespace isochor
 
   /// Relative error of @p fine by Richardson's extrapolation from @p coarse: with trusted_order(), or
   /// with the order that the three runs show, between 1 and the degree + 1, if there is a @p coarsest.
-  /// None if the finer mesh is hardly finer.
+  /// Where the three go to and fro, the larger difference and first order count. None if the finer mesh
+  /// is hardly finer.
   std::optional<double> error_by_refinement(const Trial *coarsest,
                                             const Trial &coarse,
                                             const Trial &fine,
