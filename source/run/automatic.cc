@@ -206,8 +206,9 @@ namespace isochor
           return {};
         has_tried_others = true;
 
-        const Attempt              lead  = trials[best];
-        const std::vector<double>  limit = extrapolated(best);
+        const double               lead_seconds = cheapest.seconds;
+        const Attempt              lead         = trials[best];
+        const std::vector<double>  limit        = extrapolated(best);
         std::optional<std::size_t> found;
         const auto                 others = stable_elements([&](const Element &element) {
           return element.kind == lead.element->kind && !element.has_bubble()
@@ -223,9 +224,8 @@ namespace isochor
             trials[k].estimate = relative_difference(trials[k].trial.values, limit)
                                  + 0.25 * lead.estimate.value_or(1.);
             const Prediction prediction = predicted(k, growth);
-            trials[k].verdict = "rejected: would take " + to_text_short(prediction.seconds) + " s, "
-                                + lead.trial.element + " "
-                                + to_text_short(predicted(best, growth).seconds);
+            trials[k].verdict = "rejected: would take " + rounded(prediction.seconds, 2) + " s, "
+                                + lead.trial.element + " " + rounded(lead_seconds, 2);
             if (prediction.seconds < cheapest.seconds)
               {
                 cheapest          = prediction;
@@ -249,13 +249,6 @@ namespace isochor
               limit[c] += share * (limit[c] - trials[*coarse].trial.values[c]);
           }
         return limit;
-      }
-
-      static std::string to_text_short(const double value)
-      {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.2g", value);
-        return text;
       }
 
       Trials<dim>          &trials;

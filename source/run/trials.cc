@@ -17,10 +17,17 @@ namespace isochor
   {
     namespace fs = std::filesystem;
 
+    /// With its edge length in the place of the .geo file's own, which need not be read again.
+    template <int dim>
+    Scene<dim> sized(Scene<dim> scene)
+    {
+      scene.mesh.size = edge_length(scene.mesh).value_or(0.);
+      return scene;
+    }
+
     MeshRequest refined(MeshRequest request, const double refinement)
     {
-      if (const auto size = edge_length(request))
-        request.size = *size / refinement;
+      request.size /= refinement;
       for (unsigned int &blocks : request.cells)
         blocks = std::max(1l, std::lround(blocks * refinement));
       return request;
@@ -37,7 +44,7 @@ namespace isochor
     template <int dim>
     void check(const Scene<dim> &scene, const AutomaticOptions &options)
     {
-      if (!is_generator(scene.mesh.source) && !edge_length(scene.mesh))
+      if (!is_generator(scene.mesh.source) && !(scene.mesh.size > 0))
         throw UserError(
             "Method/Element: auto chooses the mesh size, too, and '" + scene.mesh.source
             + "' has one mesh only; allowed: a generator, or a .geo file with a constant "
@@ -55,11 +62,16 @@ namespace isochor
     }
   } // namespace
 
-  std::string percent(const double value)
+  std::string rounded(const double value, const int digits)
   {
     char text[32];
-    std::snprintf(text, sizeof text, "%.2g %%", 100. * value);
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
     return text;
+  }
+
+  std::string percent(const double value)
+  {
+    return rounded(100. * value, 2) + " %";
   }
 
   template <int dim>
@@ -67,12 +79,18 @@ namespace isochor
                       const Method           &method,
                       const RunSettings      &settings,
                       const AutomaticOptions &options)
-    : scene(scene)
+    : scene(sized(scene))
     , options(options)
     , method(method)
     , settings(settings)
   {
-    check(scene, options);
+    check(this->scene, options);
+  }
+
+  template <int dim>
+  const std::string &Trials<dim>::probe() const
+  {
+    return options.probe.empty() ? scene.probes.front().name : options.probe;
   }
 
   template <int dim>
@@ -210,7 +228,7 @@ namespace isochor
   template <int dim>
   std::vector<double> Trials<dim>::values_of(const RunResult &result) const
   {
-    const std::string  &name = options.probe.empty() ? scene.probes.front().name : options.probe;
+    const std::string  &name = probe();
     std::vector<double> values;
     for (std::size_t k = 0; k < result.probe_columns.size(); ++k)
       if (const std::string &column = result.probe_columns[k].name;
@@ -224,14 +242,7 @@ namespace isochor
   {
     const MeshRequest mesh = refined(scene.mesh, wish.refinement);
     std::string       text(wish.element->name);
-    if (mesh.cells.empty())
-      {
-        char size[32];
-        std::snprintf(size, sizeof size, "%.3g", mesh.size);
-        text += ", mesh size " + std::string(size) + " m";
-      }
-    else
-      text += ", cells";
+    text += mesh.cells.empty() ? ", mesh size " + rounded(mesh.size, 3) + " m" : ", cells";
     for (const unsigned int blocks : mesh.cells)
       text += " " + std::to_string(blocks);
     if (!wish.energy)
@@ -290,19 +301,16 @@ namespace isochor
   template <int dim>
   std::string Trials<dim>::table(const std::size_t chosen) const
   {
-    const auto probe = options.probe.empty() ? scene.probes.front().name : options.probe;
     std::vector<std::vector<std::string>> rows;
     for (const Attempt &attempt : attempts)
-      {
-        rows.push_back({attempt.words,
-                        std::to_string(attempt.result.unknowns),
-                        csv_number(attempt.trial.seconds),
-                        values_text(attempt.trial),
-                        attempt.estimate ? percent(*attempt.estimate) : "",
-                        attempt.verdict});
-      }
+      rows.push_back({attempt.words,
+                      std::to_string(attempt.result.unknowns),
+                      csv_number(attempt.trial.seconds),
+                      values_text(attempt.trial),
+                      attempt.estimate ? percent(*attempt.estimate) : "",
+                      attempt.verdict});
     return format_table(
-               {"tried", "unknowns", "seconds", probe, "estimated error", "verdict"}, rows, 70)
+               {"tried", "unknowns", "seconds", probe(), "estimated error", "verdict"}, rows, 70)
            + "chosen: " + attempts[chosen].words + "\n";
   }
 

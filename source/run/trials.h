@@ -85,6 +85,7 @@ namespace isochor
     const AutomaticOptions options;
 
   private:
+    const std::string    &probe() const; ///< name of the one that must be accurate
     std::string           words(const Wish &wish) const;
     std::vector<double>   values_of(const RunResult &result) const;
     std::filesystem::path folder_of(std::size_t k) const;
@@ -98,6 +99,9 @@ namespace isochor
     bool                     has_folder = false;
     std::optional<UserError> refusal; ///< the first
   };
+
+  /// With so many significant digits.
+  std::string rounded(double value, int digits);
 
   /// "1.2 %"
   std::string percent(double value);

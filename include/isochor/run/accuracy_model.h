@@ -54,9 +54,9 @@ namespace isochor
   };
 
   /// The coarsest mesh on which the element of @p trial, whose error is @p error, is expected to err
-  /// by @p accuracy, with hoped_order(). Seconds grow with unknowns to the power of 1.4, between what kept factors and
-  /// what multigrid take (convergence/block_preconditioner). @p growth: exponent of the unknowns in
-  /// the refinement.
+  /// by @p accuracy, with hoped_order(). Seconds grow with unknowns to the power of 1.4, between what
+  /// kept factors and what multigrid take (convergence/block_preconditioner). @p growth: exponent of
+  /// the unknowns in the refinement.
   Prediction predict(const Trial &trial, double error, double accuracy, double growth);
 
   /// Exponent of the unknowns in the refinement between two runs, between 1 and @p dim.
