@@ -2,7 +2,8 @@
 
 Stable is what every machine must find again: settings, cells, unknowns, probes, the figures that
 go with them, status. Iteration counts may differ a little, because rounding decides the last one.
-Seconds, memory and counts of linear algebra belong to the machine.
+Seconds, memory and counts of linear algebra belong to the machine, and so does how far a run comes that
+Method/Time limit stops, here or in the baseline.
 """
 
 import csv
@@ -39,6 +40,10 @@ def agrees(column, expected, found):
     return abs(a - b) <= TOLERANCE * abs(a) + ROUNDING
 
 
+def out_of_time(row):
+    return (row.get("reason") or "").startswith("time limit")
+
+
 def compare(study, baseline):
     """Deviations of a study from its baseline, row by row; the rows may be in any order."""
     if study.parameters != baseline.parameters:
@@ -58,6 +63,8 @@ def compare(study, baseline):
         found = rows.pop((row["role"], *(row[n] for n in baseline.parameters)), None)
         if found is None:
             deviations.append(Deviation(run, "run", "in the baseline", "not run"))
+            continue
+        if out_of_time(row) or out_of_time(found):
             continue
         deviations += [Deviation(run, name, row[name], found[name])
                        for name in columns

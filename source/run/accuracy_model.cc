@@ -11,6 +11,10 @@ namespace isochor
     /// Of edge lengths: nearer meshes differ by chance, not by refinement.
     constexpr double least_ratio = 1.05;
 
+    /// Exponent of the unknowns in the seconds of a run, between what kept factors and what multigrid
+    /// take (convergence/block_preconditioner).
+    constexpr double cost_exponent = 1.4;
+
     /// Do the values go back where they came from? Then no order is seen in them, and a difference may be
     /// small by chance.
     bool turns(const Trial &coarsest, const Trial &coarse, const Trial &fine)
@@ -59,7 +63,7 @@ namespace isochor
     if (!(ratio > least_ratio))
       return {};
     double       order  = trusted_order(fine.degree);
-    double       change = relative_difference(coarse.values, fine.values);
+    const double change = relative_difference(coarse.values, fine.values);
     const double best   = fine.degree + 1.;
     double       least  = 0; // no smaller than the best order lets the error become
     if (coarsest != nullptr)
@@ -68,8 +72,10 @@ namespace isochor
         const double ratio_before = edge_ratio(*coarsest, coarse, dim);
         if (turns(*coarsest, coarse, fine))
           {
-            order  = 1.;
-            change = std::max(change, before);
+            order             = 1.;
+            const double hope = hoped_order(fine.degree);
+            least             = before / (std::pow(std::max(ratio_before, least_ratio), hope) - 1.)
+                    / std::pow(ratio, hope);
           }
         else if (ratio_before > least_ratio && before > 0)
           {
@@ -90,6 +96,11 @@ namespace isochor
     return std::clamp(growth, 1., static_cast<double>(dim));
   }
 
+  double finest_step(const Trial &trial, const double seconds, const double growth)
+  {
+    return std::pow(seconds / trial.seconds, 1. / (growth * cost_exponent));
+  }
+
   Prediction
   predict(const Trial &trial, const double error, const double accuracy, const double growth)
   {
@@ -98,7 +109,7 @@ namespace isochor
     prediction.refinement = trial.refinement * finer;
     prediction.unknowns   = trial.unknowns * std::pow(finer, growth);
     prediction.error      = std::min(error, accuracy);
-    prediction.seconds    = trial.seconds * std::pow(prediction.unknowns / trial.unknowns, 1.4);
+    prediction.seconds    = trial.seconds * std::pow(finer, growth * cost_exponent);
     return prediction;
   }
 } // namespace isochor

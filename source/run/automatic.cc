@@ -70,29 +70,46 @@ namespace isochor
         // Hexahedra first: of equal cost they are the more accurate ones.
         std::ranges::stable_partition(
             leads, [](const Element *element) { return element->kind == CellKind::hypercube; });
-        std::optional<std::size_t> first;
+        std::optional<std::size_t> lowest, first;
         double                     refinement
             = is_generator(trials.scene.mesh.source) ? coarsest_generated : coarsest_meshed;
         for (; refinement <= finest_pilot && !first; refinement *= pilot_step)
-          for (const Element *element : leads)
-            {
-              if (first && !is_mesh_dear(*first))
-                break;
-              const std::size_t k
-                  = trials.make({element,
-                                 refinement,
-                                 {},
-                                 true,
-                                 first ? patience * trials[*first].trial.seconds : 0.});
-              if (!trials[k].converged() && !can_go_on(k))
-                return {};
-              if (trials[k].converged() && first)
-                first = cheaper(*first, k);
-              else if (trials[k].converged())
-                first = k;
-            }
+          {
+            // Newton's long way from rest is cheapest with few unknowns.
+            if (!lowest)
+              {
+                const std::size_t k = trials.make({lowest_order(), refinement, {}});
+                if (trials[k].converged())
+                  lowest = k;
+                else if (!can_go_on(k))
+                  return {};
+              }
+            for (const Element *element : leads)
+              {
+                if (first && !is_mesh_dear(*first))
+                  break;
+                const std::size_t k
+                    = trials.make({element,
+                                   refinement,
+                                   {},
+                                   true,
+                                   first ? patience * trials[*first].trial.seconds : 0.});
+                if (!trials[k].converged() && !can_go_on(k))
+                  return {};
+                if (trials[k].converged() && first)
+                  first = cheaper(*first, k);
+                else if (trials[k].converged())
+                  first = k;
+              }
+          }
         if (!first)
           return {};
+        if (lowest)
+          {
+            trials[*lowest].verdict = "pilot";
+            if (is_enough(*lowest, *first))
+              return first;
+          }
         trials[*first].verdict = "pilot";
         choose_strain(*first);
         const std::size_t second = trials.make({trials[*first].element, refinement, energy});
@@ -100,6 +117,27 @@ namespace isochor
           return second;
         failed_refinement = refinement;
         return can_go_on(second) ? first : std::nullopt;
+      }
+
+      const Element *lowest_order() const
+      {
+        return stable_elements([](const Element &element) {
+                 return element.displacement.degree == 1 && !element.has_bubble();
+               })
+            .front();
+      }
+
+      /// Of two elements with equal meshes the one of lower order errs more: by about as much as they
+      /// differ, so that the other one errs by no more than that.
+      bool is_enough(const std::size_t lower, const std::size_t higher)
+      {
+        if (trials[lower].trial.refinement != trials[higher].trial.refinement)
+          return false;
+        const double difference
+            = relative_difference(trials[lower].trial.values, trials[higher].trial.values);
+        trials[higher].estimate = difference;
+        // Equal values, zero for example, are what a mesh cannot show.
+        return difference > 0 && difference <= accuracy;
       }
 
       bool is_mesh_dear(const std::size_t k) const
@@ -161,7 +199,10 @@ namespace isochor
               break;
             if (const auto other = try_others(best))
               best = *other;
-            const std::size_t finer = trials.make(next_wish(best));
+            const auto wish = next_wish(best);
+            if (!wish)
+              break;
+            const std::size_t finer = trials.make(*wish);
             if (!trials[finer].converged())
               {
                 if (!can_go_on(finer))
@@ -184,21 +225,29 @@ namespace isochor
         return predict(attempt.trial, attempt.estimate.value_or(1.), aim * accuracy, growth);
       }
 
-      typename Trials<dim>::Wish next_wish(const std::size_t k) const
+      /// The run after run @p k; none if it would take longer than a run may.
+      std::optional<typename Trials<dim>::Wish> next_wish(const std::size_t k) const
       {
         const Trial &now  = trials[k].trial;
-        const double step = predicted(k, dim).refinement / now.refinement;
-        return {trials[k].element,
-                std::max(now.refinement * std::clamp(step, smallest_step, largest_step),
-                         smallest_step * failed_refinement),
-                energy};
+        double       step = std::clamp(
+            predicted(k, dim).refinement / now.refinement, smallest_step, largest_step);
+        if (const double limit = trials.time_limit(); limit > 0)
+          {
+            step = std::min(step, finest_step(now, limit, trials.growth(k)));
+            if (step < smallest_step)
+              return {};
+          }
+        return typename Trials<dim>::Wish{
+            trials[k].element,
+            std::max(now.refinement * step, smallest_step * failed_refinement),
+            energy};
       }
 
       /// Before a dear run: other elements on meshes of about as many unknowns as run @p best has.
       /// Number of the one that promises the accuracy for less, if there is one.
       std::optional<std::size_t> try_others(const std::size_t best)
       {
-        if (has_tried_others || !trials[best].estimate)
+        if (has_tried_others || !trials[best].estimate || !trials.coarser_than(best))
           return {};
         const double growth   = trials.growth(best);
         Prediction   cheapest = predicted(best, growth);
@@ -217,8 +266,11 @@ namespace isochor
         for (const Element *element : others)
           {
             const double      degree = element->displacement.degree;
-            const std::size_t k      = trials.make(
-                {element, lead.trial.refinement * lead.trial.degree / degree, energy, false});
+            const std::size_t k      = trials.make({element,
+                                                    lead.trial.refinement * lead.trial.degree / degree,
+                                                    energy,
+                                                    false,
+                                                    patience * lead.trial.seconds});
             if (!trials[k].converged())
               continue;
             trials[k].estimate = relative_difference(trials[k].trial.values, limit)

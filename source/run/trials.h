@@ -81,6 +81,12 @@ namespace isochor
     /// The result of Element = auto if run @p chosen is it: files in place, automatic.csv written.
     RunResult finish(std::size_t chosen);
 
+    /// s; 0: none.
+    double time_limit() const
+    {
+      return method.time_limit;
+    }
+
     const Scene<dim>       scene;
     const AutomaticOptions options;
 

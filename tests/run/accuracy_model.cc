@@ -49,11 +49,15 @@ int main()
   std::cout << "lucky: from two " << *error_by_refinement(nullptr, second, lucky, dim)
             << ", from three more than a hundredth of a per cent: "
             << testing::yes(*error_by_refinement(&first, second, lucky, dim) > 1e-4) << '\n';
-  // To and fro: 1.01, 0.99, 0.995; the larger difference, 2 %, by first order.
+  // To and fro: the last difference by first order, 1.01, 0.99, 0.995, ...
   Trial there = trial(2, 1, 0, 1), back = trial(2, 1.5, 0, 1), again = trial(2, 2.25, 0, 1);
   there.values = {1.01}, back.values = {0.99}, again.values = {0.995};
   std::cout << "to and fro: " << *error_by_refinement(&there, back, again, dim)
-            << ", 2 % / 0.99 / (1.5 - 1) = " << 0.02 / 0.99 / 0.5 << '\n';
+            << ", 0.5 % / 0.995 / (1.5 - 1) = " << 0.005 / 0.995 / 0.5 << '\n';
+  // ... or the one before by second, from the middle mesh to the finest, if that is more.
+  again.values = {0.991};
+  std::cout << "to and hardly fro: " << *error_by_refinement(&there, back, again, dim)
+            << ", 2 % / 0.99 / (1.5^2 - 1) / 1.5^2 = " << 0.02 / 0.99 / 1.25 / 2.25 << '\n';
   std::cout << "a mesh no finer tells nothing: "
             << testing::yes(
                    !error_by_refinement(nullptr, trial(2, 1, 1, 1), trial(2, 1.01, 1, 1), dim))
@@ -67,6 +71,8 @@ int main()
             << " times as many (8^1.4 = " << std::pow(8., 1.4) << ")\n";
   const Prediction none = predict(now, error(now), 0.05, dim);
   std::cout << "4 % to 5 %: refinement " << none.refinement << ", error " << none.error << '\n';
+  std::cout << "within as many seconds: " << finest_step(now, half.seconds, dim)
+            << " times finer\n";
   std::cout << "growth of unknowns: " << growth_of_unknowns(now, trial(2, 3, 0.04, 2), dim) << '\n';
   std::cout << "difference of (3, 4) and (0, 0): " << relative_difference({3, 4}, {0, 0})
             << ", of (3, 4) and (3, 3.5): " << relative_difference({3, 3.5}, {3, 4}) << '\n';

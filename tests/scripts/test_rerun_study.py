@@ -114,6 +114,14 @@ class RerunStudy(unittest.TestCase):
         self.noticed(self.changed("tip [m]", ""), "tip [m]")
         self.noticed(self.changed("tip [m]", "nan"), "tip [m]")
 
+    def test_a_run_that_ran_out_of_time(self):
+        rows = self.changed("status", "not converged")
+        row = next(row for row, before in zip(rows, ROWS) if row != before)
+        row[HEADER.index("reason")] = "time limit of 15 s: interrupted"
+        self.accepted(rows)
+        row[HEADER.index("reason")] = "step below minimum"
+        self.noticed(rows, "not converged")
+
     def test_rounding_is_no_figure(self):
         rounding = self.changed("tip [m]", 3e-15)
         write(self.study / "baseline.csv", rounding)

@@ -37,8 +37,9 @@ namespace isochor
 
   /// Relative error of @p fine by Richardson's extrapolation from @p coarse: with trusted_order(), or
   /// with the order that the three runs show, between 1 and the degree + 1, if there is a @p coarsest.
-  /// Where the three go to and fro, the larger difference and first order count. None if the finer mesh
-  /// is hardly finer.
+  /// Where the three go to and fro, their orders are those one may not hope to exceed: first order for
+  /// the last difference, which may be small by chance, and hoped_order() for the one before. None if
+  /// the finer mesh is hardly finer.
   std::optional<double> error_by_refinement(const Trial *coarsest,
                                             const Trial &coarse,
                                             const Trial &fine,
@@ -53,10 +54,13 @@ namespace isochor
     double seconds    = 0;
   };
 
+  /// How much finer a mesh may be than that of @p trial if its run may take @p seconds, as predict()
+  /// foresees them.
+  double finest_step(const Trial &trial, double seconds, double growth);
+
   /// The coarsest mesh on which the element of @p trial, whose error is @p error, is expected to err
-  /// by @p accuracy, with hoped_order(). Seconds grow with unknowns to the power of 1.4, between what
-  /// kept factors and what multigrid take (convergence/block_preconditioner). @p growth: exponent of
-  /// the unknowns in the refinement.
+  /// by @p accuracy, with hoped_order(). Seconds grow with unknowns to the power of 1.4. @p growth:
+  /// exponent of the unknowns in the refinement.
   Prediction predict(const Trial &trial, double error, double accuracy, double growth);
 
   /// Exponent of the unknowns in the refinement between two runs, between 1 and @p dim.
