@@ -18,6 +18,8 @@ namespace isochor
     constexpr double pilot_step = 1.5, largest_step = 1.6, smallest_step = 1.4;
     /// A pilot that takes longer than this many times the one before is given up.
     constexpr double patience = 3.;
+    /// Of a run that begins near its equilibrium, as those of the chain do if nothing fails.
+    constexpr double newton_iterations_nearby = 5.;
     /// Part of a run's seconds from which on its mesh is what is dear about it.
     constexpr double mesh_share = 0.5;
     /// Of the body's size: with larger displacements small strain is not even tried.
@@ -198,7 +200,10 @@ namespace isochor
             if (trials[best].estimate && *trials[best].estimate <= accuracy)
               break;
             if (const auto other = try_others(best))
-              best = *other;
+              {
+                trials[best].verdict = "pilot";
+                best                 = *other;
+              }
             const auto wish = next_wish(best);
             if (!wish)
               break;
@@ -221,8 +226,16 @@ namespace isochor
 
       Prediction predicted(const std::size_t k, const double growth) const
       {
-        const Attempt &attempt = trials[k];
-        return predict(attempt.trial, attempt.estimate.value_or(1.), aim * accuracy, growth);
+        return predict(from_nearby(k), trials[k].estimate.value_or(1.), aim * accuracy, growth);
+      }
+
+      /// Run @p k, as if it had begun near its equilibrium: a way from rest says nothing of the next run.
+      Trial from_nearby(const std::size_t k) const
+      {
+        Trial        trial      = trials[k].trial;
+        const double iterations = trials[k].result.march.newton_iterations;
+        trial.seconds *= std::min(1., newton_iterations_nearby / std::max(1., iterations));
+        return trial;
       }
 
       /// The run after run @p k; none if it would take longer than a run may.
@@ -233,7 +246,7 @@ namespace isochor
             predicted(k, dim).refinement / now.refinement, smallest_step, largest_step);
         if (const double limit = trials.time_limit(); limit > 0)
           {
-            step = std::min(step, finest_step(now, limit, trials.growth(k)));
+            step = std::min(step, finest_step(from_nearby(k), limit, trials.growth(k)));
             if (step < smallest_step)
               return {};
           }
@@ -251,7 +264,7 @@ namespace isochor
           return {};
         const double growth   = trials.growth(best);
         Prediction   cheapest = predicted(best, growth);
-        if (cheapest.seconds < dear * trials[best].trial.seconds)
+        if (cheapest.seconds < dear * from_nearby(best).seconds)
           return {};
         has_tried_others = true;
 
