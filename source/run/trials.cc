@@ -106,7 +106,7 @@ namespace isochor
     Method run_method        = method;
     run_method.element       = *wish.element;
     run_method.nested_levels = 0;
-    if (wish.time_limit > 0)
+    if (wish.time_limit > 0 && !(method.time_limit > 0 && method.time_limit < wish.time_limit))
       run_method.time_limit = wish.time_limit;
 
     RunSettings run_settings   = settings;
