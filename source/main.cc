@@ -1,6 +1,5 @@
-// The command line: parse, dispatch, and catch once.
+// The command line: parse, dispatch, and catch once. launcher.cc starts it.
 
-#include <isochor/core/blas_kernels.h>
 #include <isochor/core/version.h>
 #include <isochor/run/interrupt.h>
 #include <isochor/run/study.h>
@@ -92,7 +91,6 @@ namespace
 
 int main(int argc, char **argv)
 {
-  isochor::choose_blas_kernels(argv);
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool on_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 
