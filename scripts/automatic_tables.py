@@ -27,25 +27,34 @@ def fixed_words(study, row):
     return ", ".join([study.method(row), *sizes])
 
 
-def automatic_rows(folder, fixed_folder):
-    """The rows of the table: for each baseline_SCENE.csv of FOLDER and each accuracy one. The fixed
-    methods of the scene are in the file of the same name in FIXED_FOLDER."""
-    table = []
+def baselines(folder, fixed_folder):
+    """(scene, study, study of the fixed methods) of each baseline_SCENE.csv of FOLDER; the fixed methods
+    of the scene are in the file of the same name in FIXED_FOLDER."""
     files = sorted(folder.glob("baseline_*.csv"))
     if not files:
         raise BadTable(f"{folder}: holds no baseline_SCENE.csv")
-    for file in files:
-        automatic, fixed = Study(file), Study(fixed_folder / file.name)
+    return [(file.stem.removeprefix("baseline_"), Study(file), Study(fixed_folder / file.name))
+            for file in files]
+
+
+def best_in_hindsight(automatic, fixed, row):
+    """The cheapest run of the study FIXED that meets what ROW of the study AUTOMATIC asks for; or None."""
+    probe = probe_with_error(automatic)
+    assured = assured_errors(fixed, fixed.runs, probe_with_error(fixed, probe.name))
+    return cheapest(assured, request_of(row))
+
+
+def automatic_rows(folder, fixed_folder):
+    """The rows of the table: for each scene of baselines() and each accuracy one."""
+    table = []
+    for scene, automatic, fixed in baselines(folder, fixed_folder):
         probe = probe_with_error(automatic)
-        assured = assured_errors(fixed, fixed.runs, probe_with_error(fixed, probe.name))
-        scene = file.stem.removeprefix("baseline_").replace("_", " ")
         for row in automatic.runs:
-            request = request_of(row)
-            best = cheapest(assured, request)
-            seconds = number(row["seconds total"])
+            request, seconds = request_of(row), number(row["seconds total"])
+            best = best_in_hindsight(automatic, fixed, row)
             error = None if failed(row) else number(row[probe.error])
             doubt = uncertainty(row, probe)
-            line = [scene, percent(request), row["auto choice"] or row["status"],
+            line = [scene.replace("_", " "), percent(request), row["auto choice"] or row["status"],
                     percent(number(row["auto estimated error"])),
                     percent(error) + (f" ± {percent(doubt)}" if doubt > request / 4 else ""),
                     figure(seconds)]

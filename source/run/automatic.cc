@@ -63,64 +63,49 @@ namespace isochor
         return found;
       }
 
+      /// Number of the run with this @p wish; none if it has not converged.
+      std::optional<std::size_t> converged(const typename Trials<dim>::Wish &wish)
+      {
+        const std::size_t k = trials.make(wish);
+        if (trials[k].converged())
+          return k;
+        is_over = !can_go_on(k);
+        return {};
+      }
+
       /// Runs on coarse meshes. Number of the last one, of the element to go on with; none if no run
       /// has converged.
       std::optional<std::size_t> pilots()
       {
-        auto leads = stable_elements(
-            [](const Element &element) { return element.displacement.degree == 2; });
-        // Hexahedra first: of equal cost they are the more accurate ones.
-        std::ranges::stable_partition(
-            leads, [](const Element *element) { return element->kind == CellKind::hypercube; });
-        std::optional<std::size_t> lowest, first;
+        std::optional<std::size_t> lowest, lead;
         double                     refinement
             = is_generator(trials.scene.mesh.source) ? coarsest_generated : coarsest_meshed;
-        for (; refinement <= finest_pilot && !first; refinement *= pilot_step)
+        for (; refinement <= finest_pilot && !lead && !is_over; refinement *= pilot_step)
           {
             // Newton's long way from rest is cheapest with few unknowns.
             if (!lowest)
-              {
-                const std::size_t k = trials.make({lowest_order(), refinement, {}});
-                if (trials[k].converged())
-                  lowest = k;
-                else if (!can_go_on(k))
-                  return {};
-              }
-            for (const Element *element : leads)
-              {
-                if (first && !is_mesh_dear(*first))
-                  break;
-                const std::size_t k
-                    = trials.make({element,
-                                   refinement,
-                                   {},
-                                   true,
-                                   first ? patience * trials[*first].trial.seconds : 0.});
-                if (!trials[k].converged() && !can_go_on(k))
-                  return {};
-                if (trials[k].converged() && first)
-                  first = cheaper(*first, k);
-                else if (trials[k].converged())
-                  first = k;
-              }
+              lowest = converged({lowest_order(), refinement, {}});
+            if (!is_over)
+              lead = quadratic_pilot(refinement);
           }
-        if (!first)
+        if (!lead || is_over)
           return {};
         if (lowest)
           {
             trials[*lowest].verdict = "pilot";
-            if (is_enough(*lowest, *first))
-              return first;
+            trials[*lead].estimate  = difference_by_order(*lowest, *lead);
+            if (is_enough(*lead))
+              return lead;
           }
-        trials[*first].verdict = "pilot";
-        choose_strain(*first);
-        const std::size_t second = trials.make({trials[*first].element, refinement, energy});
-        if (trials[second].converged())
+        trials[*lead].verdict = "pilot";
+        choose_strain(*lead);
+        if (const auto second = converged({trials[*lead].element, refinement, energy}))
           return second;
         failed_refinement = refinement;
-        return can_go_on(second) ? first : std::nullopt;
+        return is_over ? std::nullopt : lead;
       }
 
+      /// A stable one: from the equilibrium of Q1-P0 the quadratic elements did not always find theirs.
       const Element *lowest_order() const
       {
         return stable_elements([](const Element &element) {
@@ -129,17 +114,43 @@ namespace isochor
             .front();
       }
 
-      /// Of two elements with equal meshes the one of lower order errs more: by about as much as they
-      /// differ, so that the other one errs by no more than that.
-      bool is_enough(const std::size_t lower, const std::size_t higher)
+      /// Hexahedra first: of equal cost they are the more accurate ones. Others, too, where it is the
+      /// mesh that is dear.
+      std::optional<std::size_t> quadratic_pilot(const double refinement)
       {
-        if (trials[lower].trial.refinement != trials[higher].trial.refinement)
-          return false;
-        const double difference
-            = relative_difference(trials[lower].trial.values, trials[higher].trial.values);
-        trials[higher].estimate = difference;
-        // Equal values, zero for example, are what a mesh cannot show.
-        return difference > 0 && difference <= accuracy;
+        auto elements = stable_elements(
+            [](const Element &element) { return element.displacement.degree == 2; });
+        std::ranges::stable_partition(
+            elements, [](const Element *element) { return element->kind == CellKind::hypercube; });
+        std::optional<std::size_t> best;
+        for (const Element *element : elements)
+          {
+            if (is_over || (best && !is_mesh_dear(*best)))
+              break;
+            const double limit = best ? patience * trials[*best].trial.seconds : 0.;
+            const auto   k     = converged({element, refinement, {}, true, limit});
+            if (k)
+              best = best ? cheaper(*best, *k) : *k;
+          }
+        return best;
+      }
+
+      /// Of two elements with equal meshes the one of lower order errs more: by about as much as they
+      /// differ, so that the other one errs by no more than that. None if the meshes differ, or if the
+      /// values are equal: zero, for example, is what a mesh cannot show.
+      std::optional<double> difference_by_order(const std::size_t lower,
+                                                const std::size_t higher) const
+      {
+        const Trial &low = trials[lower].trial, &high = trials[higher].trial;
+        if (low.refinement != high.refinement)
+          return {};
+        const double difference = relative_difference(low.values, high.values);
+        return difference > 0 ? std::optional(difference) : std::nullopt;
+      }
+
+      bool is_enough(const std::size_t k) const
+      {
+        return trials[k].estimate && *trials[k].estimate <= accuracy;
       }
 
       bool is_mesh_dear(const std::size_t k) const
@@ -197,7 +208,7 @@ namespace isochor
         trials.estimate(best);
         for (unsigned int n = 0; n < most_refinements; ++n)
           {
-            if (trials[best].estimate && *trials[best].estimate <= accuracy)
+            if (is_enough(best))
               break;
             if (const auto other = try_others(best))
               {
@@ -318,7 +329,8 @@ namespace isochor
 
       Trials<dim>          &trials;
       const double          accuracy;
-      std::optional<Energy> energy; ///< small strain, if that is enough
+      std::optional<Energy> energy;          ///< small strain, if that is enough
+      bool                  is_over = false; ///< the user has stopped it, or only wants checks
       bool                  has_tried_others  = false;
       double                failed_refinement = 0; ///< of the last mesh on which a run failed
     };

@@ -33,15 +33,12 @@ namespace isochor
             "Scene/Mesh size");
   }
 
-  template <int dim>
-  std::unique_ptr<Mesh<dim>>
-  make_mesh_for(const Scene<dim> &scene, const Method &method, MPI_Comm communicator)
+  MeshRequest mesh_request_for(MeshRequest wanted, const Method &method)
   {
-    MeshRequest request = scene.mesh;
-    request.kind        = method.element.kind;
+    wanted.kind = method.element.kind;
     // A linear displacement on a quadratic cell would not even hold a linear field.
-    request.geometry_order = std::min(request.geometry_order, method.element.displacement.degree);
-    return make_mesh<dim>(request, communicator);
+    wanted.geometry_order = std::min(wanted.geometry_order, method.element.displacement.degree);
+    return wanted;
   }
 
   namespace
@@ -81,7 +78,7 @@ namespace isochor
       std::unique_ptr<Mesh<dim>> mesh;
       {
         const auto scope = stopwatch.measure(Phase::mesh);
-        mesh             = make_mesh_for(scene, method, state.get_mpi_communicator());
+        mesh = make_mesh<dim>(mesh_request_for(scene.mesh, method), state.get_mpi_communicator());
       }
       std::optional<Stopwatch::Scope> setup(std::in_place, stopwatch, Phase::setup);
       const Discretisation<dim> discretisation(mesh->triangulation, method.element, mesh->geometry);
@@ -170,15 +167,14 @@ namespace isochor
     return march_quasi_static(control, method.stepping, state, begin);
   }
 
-#define INSTANTIATE(dim)                                                                           \
-  template std::unique_ptr<Mesh<dim>> make_mesh_for(const Scene<dim> &, const Method &, MPI_Comm); \
-  template MarchReport                march_nested(const Scene<dim> &,                             \
-                                                   const Method &,                                 \
-                                                   const LoadControl<dim> &,                       \
-                                                   NestedReport &,                                 \
-                                                   Vector &,                                       \
-                                                   const MarchState &,                             \
-                                                   const SolvedBody<dim> *);
+#define INSTANTIATE(dim)                                      \
+  template MarchReport march_nested(const Scene<dim> &,       \
+                                    const Method &,           \
+                                    const LoadControl<dim> &, \
+                                    NestedReport &,           \
+                                    Vector &,                 \
+                                    const MarchState &,       \
+                                    const SolvedBody<dim> *);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -95,11 +95,15 @@ namespace isochor
     Stopwatch stopwatch;
     RunResult result;
 
-    std::unique_ptr<Mesh<dim>> mesh;
-    {
-      const auto scope = stopwatch.measure(Phase::mesh);
-      mesh             = make_mesh_for(scene, method, communicator);
-    }
+    const MeshRequest          request = mesh_request_for(scene.mesh, method);
+    std::shared_ptr<Mesh<dim>> mesh;
+    if (begin != nullptr && begin->request == request)
+      mesh = begin->mesh;
+    else
+      {
+        const auto scope = stopwatch.measure(Phase::mesh);
+        mesh             = make_mesh<dim>(request, communicator);
+      }
     result.quality         = mesh->quality;
     const auto boundary_id = [&](const std::string &name, const std::string &what) {
       return mesh->boundary_id(name, what);
@@ -270,7 +274,7 @@ namespace isochor
     if (!result.linear.note.empty())
       result.warnings.push_back(result.linear.note);
     if (end != nullptr && result.converged())
-      *end = {std::move(mesh), std::move(own_discretisation), std::move(state)};
+      *end = {request, std::move(mesh), std::move(own_discretisation), std::move(state)};
     return result;
   }
 

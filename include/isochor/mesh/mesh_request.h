@@ -46,5 +46,7 @@ namespace isochor
     /// 1: straight cells; 2: quadratic cells, which follow a curved surface. A .geo file is meshed
     /// with that order; a .msh file must hold cells of it.
     unsigned int geometry_order = 1;
+
+    bool operator==(const MeshRequest &) const = default;
   };
 } // namespace isochor

@@ -9,10 +9,8 @@
 
 namespace isochor
 {
-  /// The mesh of @p scene with what cells @p method needs. Collective.
-  template <int dim>
-  std::unique_ptr<Mesh<dim>>
-  make_mesh_for(const Scene<dim> &scene, const Method &method, MPI_Comm communicator);
+  /// The mesh @p wanted by a scene, of what cells @p method needs.
+  MeshRequest mesh_request_for(MeshRequest wanted, const Method &method);
 
   /// Throws UserError if the mesh of @p method.nested_levels coarser meshes cannot be named.
   void check_nested(const MeshRequest &request, unsigned int levels);
@@ -22,7 +20,8 @@ namespace isochor
   template <int dim>
   struct SolvedBody
   {
-    std::unique_ptr<Mesh<dim>>           mesh;
+    MeshRequest                          request; ///< of the mesh; equal ones make equal meshes
+    std::shared_ptr<Mesh<dim>>           mesh;
     std::unique_ptr<Discretisation<dim>> discretisation;
     Vector                               state;
   };
