@@ -93,18 +93,10 @@ namespace isochor
     bool Path<dim>::find_tangent()
     {
       PathVector rate{Vector(here.x), 1.};
-      Vector     step(here.x);
-      control.residual(here.x, here.load, residual, size);
-      const auto correction
-          = control.tangent_solver.correction(here.x,
-                                              here.load,
-                                              residual,
-                                              control.newton_options.largest_linear_tolerance,
-                                              step,
-                                              &rate.x);
-      if (!correction.succeeded)
+      if (const std::string failure = control.find_rate(here.x, here.load, rate.x);
+          !failure.empty())
         {
-          report.reason = "the path has no tangent: " + correction.failure;
+          report.reason = "the path has no tangent: " + failure;
           return false;
         }
       if (!has_tangent)

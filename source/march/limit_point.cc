@@ -12,17 +12,8 @@ namespace isochor
     std::optional<double> inverse_squared_rate(const LoadControl<dim> &control,
                                                const PathPoint        &point)
     {
-      Vector       residual(point.state.get_partitioner()), step(residual), rate(residual);
-      ResidualSize size;
-      control.residual(point.state, point.load, residual, size);
-      const auto correction
-          = control.tangent_solver.correction(point.state,
-                                              point.load,
-                                              residual,
-                                              control.newton_options.largest_linear_tolerance,
-                                              step,
-                                              &rate);
-      if (!correction.succeeded)
+      Vector rate(point.state.get_partitioner());
+      if (!control.find_rate(point.state, point.load, rate).empty())
         return {};
       double squared = 0;
       for (LocalIndex i = 0; i < control.equilibrium.discretisation().n_owned_displacements; ++i)

@@ -64,6 +64,17 @@ namespace isochor
   }
 
   template <int dim>
+  std::string LoadControl<dim>::find_rate(const Vector &x, const double load, Vector &rate) const
+  {
+    Vector       force(x.get_partitioner()), step(force);
+    ResidualSize size;
+    residual(x, load, force, size);
+    const auto correction = tangent_solver.correction(
+        x, load, force, newton_options.largest_linear_tolerance, step, &rate);
+    return correction.succeeded ? "" : correction.failure;
+  }
+
+  template <int dim>
   void LoadControl<dim>::tell(const double load, const NewtonReport &newton) const
   {
     if (callbacks.solved)

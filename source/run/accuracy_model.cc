@@ -54,6 +54,11 @@ namespace isochor
     return std::pow(fine.unknowns / coarse.unknowns, 1. / dim);
   }
 
+  double least_unknowns_of_finer(const double unknowns, const unsigned int dim)
+  {
+    return unknowns * std::pow(least_ratio, dim);
+  }
+
   std::optional<double> error_by_refinement(const Trial       *coarsest,
                                             const Trial       &coarse,
                                             const Trial       &fine,

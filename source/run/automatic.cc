@@ -82,8 +82,8 @@ namespace isochor
             = is_generator(trials.scene.mesh.source) ? coarsest_generated : coarsest_meshed;
         for (; refinement <= finest_pilot && !lead && !is_over; refinement *= pilot_step)
           {
-            // Newton's long way from rest is cheapest with few unknowns.
-            if (!lowest)
+            // Newton's long way from rest in steps is cheapest with few unknowns.
+            if (!lowest && trials.goes_in_steps())
               lowest = converged({lowest_order(), refinement, {}});
             if (!is_over)
               lead = quadratic_pilot(refinement);
@@ -171,7 +171,7 @@ namespace isochor
       /// A mesh too coarse may fail; what the user has stopped or only wants checked is no failure.
       bool can_go_on(const std::size_t k) const
       {
-        return trials[k].result.status == refused
+        return trials[k].result.status == refused || trials[k].result.status == left_out
                || trials[k].result.status == run_status_names.name(RunStatus::not_converged);
       }
 
@@ -206,10 +206,10 @@ namespace isochor
       std::size_t refine(std::size_t best)
       {
         trials.estimate(best);
-        for (unsigned int n = 0; n < most_refinements; ++n)
+        for (unsigned int n_solved = 0, n_tried = 0;
+             !is_enough(best) && n_solved < most_refinements && n_tried < 2 * most_refinements;
+             ++n_tried)
           {
-            if (is_enough(best))
-              break;
             if (const auto other = try_others(best))
               {
                 trials[best].verdict = "pilot";
@@ -219,6 +219,7 @@ namespace isochor
             if (!wish)
               break;
             const std::size_t finer = trials.make(*wish);
+            n_solved += trials[finer].result.status != left_out;
             if (!trials[finer].converged())
               {
                 if (!can_go_on(finer))
@@ -252,19 +253,19 @@ namespace isochor
       /// The run after run @p k; none if it would take longer than a run may.
       std::optional<typename Trials<dim>::Wish> next_wish(const std::size_t k) const
       {
-        const Trial &now  = trials[k].trial;
-        double       step = std::clamp(
+        const Trial &now   = trials[k].trial;
+        const double least = smallest_step * std::max(1., failed_refinement / now.refinement);
+        double       step  = std::clamp(
             predicted(k, dim).refinement / now.refinement, smallest_step, largest_step);
         if (const double limit = trials.time_limit(); limit > 0)
           {
-            step = std::min(step, finest_step(from_nearby(k), limit, trials.growth(k)));
-            if (step < smallest_step)
+            const double most = finest_step(from_nearby(k), limit, trials.growth(k));
+            if (most < least)
               return {};
+            step = std::min(step, most);
           }
         return typename Trials<dim>::Wish{
-            trials[k].element,
-            std::max(now.refinement * step, smallest_step * failed_refinement),
-            energy};
+            trials[k].element, now.refinement * std::max(step, least), energy};
       }
 
       /// Before a dear run: other elements on meshes of about as many unknowns as run @p best has.

@@ -126,6 +126,12 @@ namespace isochor
             = std::to_string(result.unknowns) + " unknowns, more than Study/Most unknowns";
         return result;
       }
+    if (result.unknowns < settings.least_unknowns)
+      {
+        result.status = left_out;
+        result.reason = std::to_string(result.unknowns) + " unknowns, hardly a finer mesh";
+        return result;
+      }
     check_turns(equilibrium, method.stepping.load_steps);
     Vector state = initial_state(scene, equilibrium);
     if (talks)

@@ -115,6 +115,9 @@ namespace isochor
     run_settings.show_steps    = false;
     run_settings.restart       = false;
     run_settings.most_unknowns = 0; // it is the study's grid that has a limit
+    const auto coarse          = finest_below(wish.refinement, *wish.element, wish.energy);
+    if (coarse)
+      run_settings.least_unknowns = least_unknowns_of_finer(attempts[*coarse].trial.unknowns, dim);
     run_settings.checkpoint_interval.reset();
     run_settings.before_output = [&]() {
       if (!has_folder)
@@ -124,7 +127,8 @@ namespace isochor
                            [&]() { fs::create_directories(run_settings.folder); });
     };
 
-    Attempt attempt;
+    const Stopwatch stopwatch;
+    Attempt         attempt;
     attempt.trial.element    = wish.element->name;
     attempt.trial.degree     = wish.element->displacement.degree;
     attempt.trial.refinement = wish.refinement;
@@ -146,8 +150,14 @@ namespace isochor
         attempt.result.status = refused;
         attempt.result.reason = error.what();
       }
+    if (coarse && attempt.result.status == left_out)
+      attempts[*coarse].trial.refinement = wish.refinement; // no coarser than this one, it seems
     attempt.trial.unknowns = attempt.result.unknowns;
-    attempt.trial.seconds  = attempt.result.seconds_total;
+    // What is refused or left out took its time, too.
+    if (!(attempt.result.seconds_total > 0))
+      attempt.result.seconds_total
+          = dealii::Utilities::MPI::max(stopwatch.total(), settings.communicator);
+    attempt.trial.seconds = attempt.result.seconds_total;
     if (attempt.converged())
       attempt.trial.values = values_of(attempt.result);
     else
@@ -162,16 +172,24 @@ namespace isochor
   }
 
   template <int dim>
-  std::optional<std::size_t> Trials<dim>::coarser_than(const std::size_t fine) const
+  std::optional<std::size_t> Trials<dim>::finest_below(const double                refinement,
+                                                       const Element              &element,
+                                                       const std::optional<Energy> energy) const
   {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < attempts.size(); ++k)
-      if (attempts[k].element == attempts[fine].element && attempts[k].converged()
-          && attempts[k].energy == attempts[fine].energy
-          && attempts[k].trial.refinement < attempts[fine].trial.refinement
+      if (attempts[k].element == &element && attempts[k].converged() && attempts[k].energy == energy
+          && attempts[k].trial.refinement < refinement
           && (!found || attempts[k].trial.refinement > attempts[*found].trial.refinement))
         found = k;
     return found;
+  }
+
+  template <int dim>
+  std::optional<std::size_t> Trials<dim>::coarser_than(const std::size_t fine) const
+  {
+    const Attempt &attempt = attempts[fine];
+    return finest_below(attempt.trial.refinement, *attempt.element, attempt.energy);
   }
 
   template <int dim>

@@ -49,7 +49,8 @@ namespace isochor
       double                time_limit = 0;    ///< s; 0: the method's
     };
 
-    /// Number of the new attempt. Collective.
+    /// Number of the new attempt, which is left out if its mesh is hardly finer than a coarser one.
+    /// Collective.
     std::size_t make(const Wish &wish);
 
     const Attempt &operator[](const std::size_t k) const
@@ -81,6 +82,12 @@ namespace isochor
     /// The result of Element = auto if run @p chosen is it: files in place, automatic.csv written.
     RunResult finish(std::size_t chosen);
 
+    /// Is the load applied in several steps, from rest?
+    bool goes_in_steps() const
+    {
+      return method.stepping.kind != Stepping::fixed || method.stepping.load_steps > 1;
+    }
+
     /// s; 0: none.
     double time_limit() const
     {
@@ -91,8 +98,10 @@ namespace isochor
     const AutomaticOptions options;
 
   private:
-    const std::string    &probe() const; ///< name of the one that must be accurate
-    std::string           words(const Wish &wish) const;
+    const std::string &probe() const; ///< name of the one that must be accurate
+    std::string        words(const Wish &wish) const;
+    std::optional<std::size_t>
+    finest_below(double refinement, const Element &element, std::optional<Energy> energy) const;
     std::vector<double>   values_of(const RunResult &result) const;
     std::filesystem::path folder_of(std::size_t k) const;
     void                  write_table() const;

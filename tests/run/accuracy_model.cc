@@ -63,6 +63,8 @@ int main()
                    !error_by_refinement(nullptr, trial(2, 1, 1, 1), trial(2, 1.01, 1, 1), dim))
             << '\n';
 
+  std::cout << "1000 unknowns, 5 % finer: " << least_unknowns_of_finer(1000, dim) << '\n';
+
   // An error of 4 %, 1 % wanted: half the edge length by second order, a quarter for more.
   const Trial      now  = trial(2, 1, 0.04, 2);
   const Prediction half = predict(now, error(now), 0.01, dim);

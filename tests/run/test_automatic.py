@@ -112,6 +112,13 @@ class Automatic(IsochorCase):
         self.assertEqual(fixed["auto choice"], "")
         self.assertTrue((self.out / "run_001" / "automatic.csv").is_file())
 
+    def test_equal_meshes(self):
+        # From one block to three quarters of two: still one, and no second run on it.
+        _, tried = self.solve(COOK.format(traction=6.25e6, accuracy="10%"), "--set", "Scene/Cells=4, 4")
+        solved = [(t["element"], t["unknowns"]) for t in tried if t["values"]]
+        self.assertEqual(len(solved), len(set(solved)))
+        self.assertTrue(any("hardly a finer mesh" in t["verdict"] for t in tried))
+
     def test_not_reached(self):
         # From four blocks there is no way to a millionth.
         told = self.run_isochor(COOK.format(traction=6.25e6, accuracy=1e-6), "--set", "Scene/Cells=2, 2")

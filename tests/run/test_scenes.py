@@ -107,22 +107,32 @@ class Scenes(unittest.TestCase):
             with self.subTest(scene=file.name):
                 self.run_isochor(file, "--check", *self.coarse(file))
 
+    def hardly_loaded(self, file, element, scale):
+        """The row of the scene by this element, its pressure times SCALE."""
+        pressure = re.search(r"set Pressure\s*=\s*(inner: \S+)", file.read_text())[1]
+        with tempfile.TemporaryDirectory() as folder:
+            self.run_isochor(file, *self.coarse(file), "--output", folder, "--overwrite",
+                             "--set", f"Scene/Pressure={pressure}*{scale}",
+                             "--set", f"Method/Element={element}", "--set", "Method/Load steps=1",
+                             "--set", "Output/VTU=none")
+            with open(Path(folder) / "results.csv", newline="") as stream:
+                [row] = csv.DictReader(stream)
+        return row
+
     def test_pressure_widens_cavities(self):
         for name in ("bubble", "cushion", "finger"):
             file = ROOT / "prm" / f"{name}.prm"
-            volumes = []
-            for scale in ("1e-6", "0.1"):
-                pressure = re.search(r"set Pressure\s*=\s*(inner: \S+)", file.read_text())[1]
-                with self.subTest(scene=name, scale=scale), \
-                        tempfile.TemporaryDirectory() as folder:
-                    self.run_isochor(file, *self.coarse(file), "--output", folder, "--overwrite",
-                                     "--set", f"Scene/Pressure={pressure}*{scale}",
-                                     "--set", "Method/Element=P1-P1", "--set", "Method/Load steps=1",
-                                     "--set", "Output/VTU=none")
-                    with open(Path(folder) / "results.csv", newline="") as stream:
-                        [row] = csv.DictReader(stream)
-                    volumes.append(float(row["cavity [m^3]"]))
-            self.assertGreater(volumes[1], 1.01 * volumes[0])
+            with self.subTest(scene=name):
+                volumes = [float(self.hardly_loaded(file, "P1-P1", scale)["cavity [m^3]"])
+                           for scale in ("1e-6", "0.1")]
+                self.assertGreater(volumes[1], 1.01 * volumes[0])
+
+    def test_hexahedra_fill_the_same_body(self):
+        file = ROOT / "prm" / "finger.prm"
+        rows = [self.hardly_loaded(file, element, "1e-6") for element in ("P1-P1", "Q1-P0")]
+        for column in ("volume [m^3]", "cavity [m^3]"):
+            by_tetrahedra, by_hexahedra = (float(row[column]) for row in rows)
+            self.assertAlmostEqual(by_hexahedra / by_tetrahedra, 1, delta=1e-5)
 
 
 if __name__ == "__main__":

@@ -27,6 +27,10 @@ namespace isochor
     /// many. Collective.
     NewtonReport solve(double load, Vector &x, ResidualSize &size, CurvatureFilter filter) const;
 
+    /// Sets @p rate to du/dl, by the tangent, at the equilibrium @p x at @p load. Why there is none;
+    /// empty: there is one. Collective.
+    std::string find_rate(const Vector &x, double load, Vector &rate) const;
+
     /// That a solution was tried at @p load.
     void tell(double load, const NewtonReport &newton) const;
 

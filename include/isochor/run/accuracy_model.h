@@ -35,6 +35,10 @@ namespace isochor
   /// asked for is not what a coarse mesh of few blocks, or of walls one cell thick, becomes.
   double edge_ratio(const Trial &coarse, const Trial &fine, unsigned int dim);
 
+  /// How many unknowns a mesh must have to tell more than one with @p unknowns: nearer ones differ by
+  /// chance, not by refinement.
+  double least_unknowns_of_finer(double unknowns, unsigned int dim);
+
   /// Relative error of @p fine by Richardson's extrapolation from @p coarse: with trusted_order(), or
   /// with the order that the three runs show, between 1 and the degree + 1, if there is a @p coarsest.
   /// Where the three go to and fro, their orders are those one may not hope to exceed: first order for

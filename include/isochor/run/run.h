@@ -61,7 +61,7 @@ namespace isochor
   /// What the reason of a run begins with that Method/Time limit has ended.
   inline constexpr const char *time_limit_words = "time limit";
 
-  /// Status of a run that is larger than RunSettings::most_unknowns.
+  /// Status of a run that is larger than RunSettings::most_unknowns, or smaller than least_unknowns.
   inline constexpr const char *left_out = "left out";
 
   struct RunSettings
@@ -76,8 +76,10 @@ namespace isochor
     std::optional<double> checkpoint_interval = 0.; ///< as in OutputOptions
     /// A larger problem is left out. 0: none is too large.
     GlobalIndex most_unknowns = 0;
-    bool        restart       = false; ///< go on from the last saved state, if there is one
-    Identity    identity      = {};    ///< the parameters that a saved state depends on
+    /// A smaller problem is left out: its mesh is hardly finer than one that has been solved on.
+    GlobalIndex least_unknowns = 0;
+    bool        restart        = false; ///< go on from the last saved state, if there is one
+    Identity    identity       = {};    ///< the parameters that a saved state depends on
     /// Called when the input has proved good, before anything is written. Collective.
     std::function<void()> before_output = [] {};
   };
