@@ -1,9 +1,13 @@
-"""Kernels of OpenBLAS: the processor's, though the library may not know it, unless the user chooses."""
+"""What a user starts: finds the program from wherever it is called, and sets what libraries read. Kernels of
+OpenBLAS: the processor's, though the library may not know it, unless the user chooses."""
 
 import os
 import re
+import shutil
 import subprocess
+import tempfile
 import unittest
+from pathlib import Path
 
 from isochor_case import ISOCHOR, MPIRUN
 
@@ -34,6 +38,28 @@ class BlasKernels(unittest.TestCase):
 
     def test_the_users_choice(self):
         self.assertIn("Nehalem", kernels([], OPENBLAS_CORETYPE="Nehalem"))
+
+
+class Place(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.here = Path(folder.name) / "isochor"
+
+    def version(self):
+        return subprocess.run([self.here, "--version"], capture_output=True, text=True)
+
+    def test_a_link(self):
+        self.here.symlink_to(Path(ISOCHOR).resolve())
+        told = self.version()
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertTrue(told.stdout.startswith("Isochor"))
+
+    def test_a_copy_alone(self):
+        shutil.copy(ISOCHOR, self.here)
+        told = self.version()
+        self.assertEqual(told.returncode, 3)
+        self.assertIn("libexec/isochor', which belongs beside this program", told.stderr)
 
 
 if __name__ == "__main__":
