@@ -193,12 +193,12 @@ namespace isochor
           return;
         const double change
             = relative_difference(trials[small].trial.values, trials[large].trial.values);
-        const bool is_enough = change < small_strain_share * accuracy;
-        if (is_enough)
+        const bool is_small = change < small_strain_share * accuracy;
+        if (is_small)
           energy = hookes_law;
         trials[large].verdict = "to compare small strain with";
-        trials[small].verdict = (is_enough ? "pilot: finite strain changes the probe by "
-                                           : "rejected: finite strain changes the probe by ")
+        trials[small].verdict = (is_small ? "pilot: finite strain changes the probe by "
+                                          : "rejected: finite strain changes the probe by ")
                                 + percent(change);
       }
 
