@@ -15,7 +15,7 @@ scripts/build.sh release isochor
 up_to_date() {
   [ -f "$picture" ] || return 1
   local source
-  for source in "$program" prm/$job.prm meshes/$job.geo scripts/*.py; do
+  for source in "$program" "${program%/*}"/libexec/isochor prm/$job.prm meshes/$job.geo scripts/*.py; do
     [ "$picture" -nt "$source" ] || return 1
   done
 }
