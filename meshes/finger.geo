@@ -35,14 +35,14 @@ If (hexahedra)
   y[] = { 0, sole, sole + channel_height, sole + channel_height + wall, sole + chamber_height, height };
   z[] = { -width / 2, -chamber_width / 2, -channel_width / 2,
           channel_width / 2, chamber_width / 2, width / 2 };
-  nx     = #x[];
-  ny     = #y[];
-  nz     = #z[];
-  n      = nx * ny * nz;
-  x[]   += { 0 }; // behind the last plane: looked up below, but not used
-  y[]   += { 0 };
-  z[]   += { 0 };
-  step[] = { 1, nx, nx * ny }; // from one point of the grid to the next one along x, y, z
+  nx      = #x[];
+  ny      = #y[];
+  nz      = #z[];
+  n       = nx * ny * nz;
+  step[]  = { 1, nx, nx * ny }; // from one point of the grid to the next one along x, y, z
+  at[]    = { x[], y[], z[] };  // all planes,
+  first[] = { 0, nx, nx + ny }; // the first one across x, y, z,
+  count[] = { nx, ny, nz };     // and how many there are
 
   // What fills the block behind point p of the grid: 1 body, 2 cavity, 0 nothing. That is behind the
   // last planes, too, so that a block before the first ones is found as one of those.
@@ -91,13 +91,10 @@ If (hexahedra)
   For d In {0:2}
     For p In {0:n - 1}
       If (has[(1 + d) * n + p])
-        i       = p % nx;
-        j       = Floor(p / nx) % ny;
-        k       = Floor(p / step[2]);
-        gap     = (d == 0) ? x[i + 1] - x[i] : (d == 1) ? y[j + 1] - y[j] : z[k + 1] - z[k];
+        plane   = first[d] + Floor(p / step[d]) % count[d];
         c       = 1 + d * n + p;
         Line(c) = { 1 + p, 1 + p + step[d] };
-        Transfinite Curve{c} = Max(1, Floor(gap / size + 0.5)) + 1;
+        Transfinite Curve{c} = Max(1, Floor((at[plane + 1] - at[plane]) / size + 0.5)) + 1;
       EndIf
     EndFor
   EndFor

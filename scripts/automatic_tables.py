@@ -37,11 +37,12 @@ def baselines(folder, fixed_folder):
             for file in files]
 
 
-def best_in_hindsight(automatic, fixed, row):
-    """The cheapest run of the study FIXED that meets what ROW of the study AUTOMATIC asks for; or None."""
+def best_in_hindsight(automatic, fixed):
+    """(row, best) of each run of the study AUTOMATIC: the cheapest run of the study FIXED that meets what
+    the row asks for, or None."""
     probe = probe_with_error(automatic)
     assured = assured_errors(fixed, fixed.runs, probe_with_error(fixed, probe.name))
-    return cheapest(assured, request_of(row))
+    return [(row, cheapest(assured, request_of(row))) for row in automatic.runs]
 
 
 def automatic_rows(folder, fixed_folder):
@@ -49,9 +50,8 @@ def automatic_rows(folder, fixed_folder):
     table = []
     for scene, automatic, fixed in baselines(folder, fixed_folder):
         probe = probe_with_error(automatic)
-        for row in automatic.runs:
+        for row, best in best_in_hindsight(automatic, fixed):
             request, seconds = request_of(row), number(row["seconds total"])
-            best = best_in_hindsight(automatic, fixed, row)
             error = None if failed(row) else number(row[probe.error])
             doubt = uncertainty(row, probe)
             line = [scene.replace("_", " "), percent(request), row["auto choice"] or row["status"],

@@ -42,8 +42,8 @@ def all_cases():
     """Each request of the study that a fixed method meets."""
     cases = []
     for scene, automatic, fixed in baselines(HERE, FIXED):
-        for row in automatic.runs:
-            if (best := best_in_hindsight(automatic, fixed, row)) is not None:
+        for row, best in best_in_hindsight(automatic, fixed):
+            if best is not None:
                 cases.append(Case(scene, row[ACCURACY], fixed_words(fixed, best),
                                   tuple((name, best[name]) for name in fixed.varied)))
     return cases
