@@ -1,9 +1,9 @@
 """Which run of a study is the cheapest for an accuracy.
 
 A run's own error may be small by luck: along refined meshes an error that changes its sign is near zero
-at one of them. So a run counts with its assured error: the largest of its own, of those of the finer
-runs of the same method on the same problem, and of the reference's uncertainty. A finer run that failed
-assures nothing. The finest run of a method has none behind it and is taken at its word.
+at one of them. So a run counts with its assured error: the largest of its own and of those of the finer
+runs of the same method on the same problem, and on top of it the reference's uncertainty, within which
+the truth lies. A finer run that failed assures nothing. The finest run of a method has none behind it and is taken at its word.
 """
 
 import math
@@ -54,7 +54,7 @@ def assured_errors(study, rows, probe):
             if error is None:
                 assured = math.inf
             else:
-                assured = max(assured, abs(error), uncertainty(row, probe))
+                assured = max(assured, abs(error) + uncertainty(row, probe))
             if error and assured < math.inf:
                 found.append((row, assured))
     return found

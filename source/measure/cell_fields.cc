@@ -77,71 +77,138 @@ namespace isochor
   }
 
   template <int dim>
+  auto CellFields<dim>::at(const std::size_t  cell,
+                           const Points      &points,
+                           const unsigned int batch_no,
+                           const double      *values) const -> Here
+  {
+    const CellTables<dim> &cells = discretisation.cells;
+
+    Here  here{};
+    Batch by_xi[dim][dim]{};
+    for (unsigned int a = 0; a < cells.n_x; ++a)
+      {
+        const auto   &shape = points.x[batch_no * cells.n_x + a];
+        const double *node  = values + cells.x[cell * cells.n_x + a];
+        for (int i = 0; i < dim; ++i)
+          {
+            here.displacement[i] += node[i] * shape.value;
+            for (int k = 0; k < dim; ++k)
+              by_xi[i][k] += node[i] * shape.gradient[k];
+          }
+      }
+    for (unsigned int j = 0; j < cells.n_p; ++j)
+      here.pressure
+          += values[cells.p[cell * cells.n_p + j]] * points.p[batch_no * cells.n_p + j].value;
+
+    Batch inverse[dim][dim];
+    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      {
+        const unsigned int point = std::min(batch_no * n_lanes + lane, points.n_points - 1);
+        const auto         map   = points.geometry->map(cell, point);
+        for (int k = 0; k < dim; ++k)
+          for (int J = 0; J < dim; ++J)
+            inverse[k][J][lane] = map.inverse[k][J];
+      }
+    for (int i = 0; i < dim; ++i)
+      for (int J = 0; J < dim; ++J)
+        for (int k = 0; k < dim; ++k)
+          here.gradient[i][J] += by_xi[i][k] * inverse[k][J];
+    return here;
+  }
+
+  template <int dim>
+  auto CellFields<dim>::respond(const Here &here) const -> Constitutive
+  {
+    Constitutive all;
+    for (int i = 0; i < 3; ++i)
+      for (int J = 0; J < 3; ++J)
+        {
+          all.deformation.F[3 * i + J] = batch(i == J ? 1. : 0.);
+          if (i < dim && J < dim)
+            all.deformation.F[3 * i + J] += here.gradient[i][J];
+        }
+    all.deformation.complete();
+    energy->evaluate(all.deformation, false, all.response);
+    all.volumetric = isochor::evaluate(volumetric_strain, all.deformation);
+    all.pressure   = is_mixed() ? here.pressure : moduli.kappa * all.volumetric.phi;
+    if (!is_mixed())
+      add_volumetric(
+          all.deformation, all.volumetric, all.pressure, moduli.kappa, false, all.response);
+    return all;
+  }
+
+  template <int dim>
   void CellFields<dim>::evaluate(const std::size_t              cell,
                                  const Points                  &points,
                                  const double                  *values,
                                  std::vector<PointFields<dim>> &fields) const
   {
-    const CellTables<dim> &cells = discretisation.cells;
-
     fields.resize(points.n_points);
-    for (unsigned int first = 0, batch_no = 0; first < points.n_points;
-         first += n_lanes, ++batch_no)
+    for (unsigned int k = 0; k < points.n_points; k += n_lanes)
       {
-        Batch u[dim]{}, by_xi[dim][dim]{};
-        for (unsigned int a = 0; a < cells.n_x; ++a)
+        const Here   here = at(cell, points, k / n_lanes, values);
+        Constitutive all  = respond(here);
+        if (is_mixed())
+          add_volumetric(all.deformation, all.volumetric, all.pressure, 0., false, all.response);
+        const Batch von_mises = von_mises_stress(all.deformation, all.response);
+        for (unsigned int lane = 0; lane < n_lanes && k + lane < points.n_points; ++lane)
           {
-            const auto   &shape = points.x[batch_no * cells.n_x + a];
-            const double *node  = values + cells.x[cell * cells.n_x + a];
+            PointFields<dim> &point = fields[k + lane];
             for (int i = 0; i < dim; ++i)
-              {
-                u[i] += node[i] * shape.value;
-                for (int k = 0; k < dim; ++k)
-                  by_xi[i][k] += node[i] * shape.gradient[k];
-              }
+              point.displacement[i] = here.displacement[i][lane];
+            point.pressure  = all.pressure[lane];
+            point.J         = all.deformation.J[lane];
+            point.von_mises = von_mises[lane];
           }
+      }
+  }
 
-        Batch inverse[dim][dim];
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+  template <int dim>
+  void CellFields<dim>::evaluate(const std::size_t              cell,
+                                 const Points                  &points,
+                                 const double                  *values,
+                                 std::vector<PointForces<dim>> &forces) const
+  {
+    forces.resize(points.n_points);
+    for (unsigned int k = 0; k < points.n_points; k += n_lanes)
+      {
+        const Constitutive all    = respond(at(cell, points, k / n_lanes, values));
+        const Batch        misfit = all.volumetric.phi - moduli.compliance() * all.pressure;
+        for (unsigned int lane = 0; lane < n_lanes && k + lane < points.n_points; ++lane)
           {
-            const auto map
-                = points.geometry->map(cell, std::min(first + lane, points.n_points - 1));
-            for (int k = 0; k < dim; ++k)
+            PointForces<dim> &point = forces[k + lane];
+            point                   = {};
+            point.pressure          = all.pressure[lane];
+            for (int i = 0; i < dim; ++i)
               for (int J = 0; J < dim; ++J)
-                inverse[k][J][lane] = map.inverse[k][J];
-          }
-
-        Deformation deformation;
-        for (int i = 0; i < 3; ++i)
-          for (int J = 0; J < 3; ++J)
-            deformation.F[3 * i + J] = batch(i == J ? 1. : 0.);
-        for (int i = 0; i < dim; ++i)
-          for (int J = 0; J < dim; ++J)
-            for (int k = 0; k < dim; ++k)
-              deformation.F[3 * i + J] += by_xi[i][k] * inverse[k][J];
-        deformation.complete();
-
-        Response response;
-        energy->evaluate(deformation, false, response);
-        const VolumetricResponse volumetric = isochor::evaluate(volumetric_strain, deformation);
-        Batch                    q{};
-        if (cells.n_p > 0)
-          for (unsigned int j = 0; j < cells.n_p; ++j)
-            q += values[cells.p[cell * cells.n_p + j]] * points.p[batch_no * cells.n_p + j].value;
-        else
-          q = moduli.kappa * volumetric.phi;
-        add_volumetric(
-            deformation, volumetric, q, cells.n_p > 0 ? 0. : moduli.kappa, false, response);
-        const Batch von_mises = von_mises_stress(deformation, response);
-
-        for (unsigned int lane = 0; lane < n_lanes && first + lane < points.n_points; ++lane)
-          {
-            PointFields<dim> &at = fields[first + lane];
+                point.stress[i][J] = all.response.P[3 * i + J][lane];
+            if (!is_mixed())
+              continue;
+            point.misfit = misfit[lane];
             for (int i = 0; i < dim; ++i)
-              at.displacement[i] = u[i][lane];
-            at.pressure  = q[lane];
-            at.J         = deformation.J[lane];
-            at.von_mises = von_mises[lane];
+              for (int J = 0; J < dim; ++J)
+                point.volume_gradient[i][J] = all.volumetric.gradient[3 * i + J][lane];
+          }
+      }
+  }
+
+  template <int dim>
+  void CellFields<dim>::evaluate(const std::size_t                 cell,
+                                 const Points                     &points,
+                                 const double                     *values,
+                                 std::vector<PointGradients<dim>> &gradients) const
+  {
+    gradients.resize(points.n_points);
+    for (unsigned int k = 0; k < points.n_points; k += n_lanes)
+      {
+        const Here here = at(cell, points, k / n_lanes, values);
+        for (unsigned int lane = 0; lane < n_lanes && k + lane < points.n_points; ++lane)
+          {
+            for (int i = 0; i < dim; ++i)
+              for (int J = 0; J < dim; ++J)
+                gradients[k + lane].gradient[i][J] = here.gradient[i][J][lane];
+            gradients[k + lane].pressure = here.pressure[lane];
           }
       }
   }

@@ -35,7 +35,7 @@ namespace isochor
     const CellTables<dim> &cells = discretisation.cells;
     for (const auto &request : requests)
       {
-        Probe probe{request, {}, {}, {}};
+        Probe probe{request, columns_.size(), {}, {}, {}};
         if (!request.boundary.empty())
           probe.boundary = boundary_id(request.boundary, request.origin);
 
@@ -54,8 +54,10 @@ namespace isochor
             std::lower_bound(probe.nodes.begin(), probe.nodes.end(), cells.n_owned_unknowns),
             probe.nodes.end());
 
+        if (request.kind == ProbeKind::mean_displacement)
+          probe.weights = mean_weights(probe);
         if (request.kind == ProbeKind::point_displacement)
-          locate(probe);
+          probe.weights = point_weights(probe);
         if (request.kind == ProbeKind::cavity_volume)
           check_closed(probe);
         probes.push_back(std::move(probe));
@@ -87,13 +89,14 @@ namespace isochor
   }
 
   template <int dim>
-  void Probes<dim>::locate(Probe &probe) const
+  auto Probes<dim>::point_weights(const Probe &probe) const -> std::vector<Weight>
   {
     // Over all ranks the one whose cell the point is deepest in answers.
-    const auto     place = PointLocation<dim>(discretisation.cells).locate(*probe.request.point);
-    const double   best  = place ? place->depth : -std::numeric_limits<double>::max();
-    const MPI_Comm communicator = discretisation.communicator();
-    const double   best_of_all  = dealii::Utilities::MPI::max(best, communicator);
+    const CellTables<dim> &cells = discretisation.cells;
+    const auto             place = PointLocation<dim>(cells).locate(*probe.request.point);
+    const double           best  = place ? place->depth : -std::numeric_limits<double>::max();
+    const MPI_Comm         communicator = discretisation.communicator();
+    const double           best_of_all  = dealii::Utilities::MPI::max(best, communicator);
     if (best_of_all < -1e-6)
       throw UserError(probe.request.origin
                       + ": the point is not in the body; allowed: a place (m) in the reference "
@@ -102,8 +105,54 @@ namespace isochor
     const unsigned int answering = dealii::Utilities::MPI::min(
         best == best_of_all ? rank : dealii::Utilities::MPI::n_mpi_processes(communicator),
         communicator);
+    std::vector<Weight> weights;
     if (rank == answering)
-      probe.place = {place->cell, place->xi};
+      for (unsigned int a = 0; a < cells.n_x; ++a)
+        weights.emplace_back(cells.x[place->cell * cells.n_x + a],
+                             discretisation.x_shape.value(a, place->xi));
+    return weights;
+  }
+
+  template <int dim>
+  auto Probes<dim>::mean_weights(const Probe &probe) const -> std::vector<Weight>
+  {
+    const CellTables<dim>       &cells = discretisation.cells;
+    std::map<LocalIndex, double> of_node;
+    double                       measure = 0;
+    if (probe.boundary)
+      {
+        for (const BoundaryFace &face : discretisation.boundary_faces)
+          if (face.owned && face.id == *probe.boundary)
+            for (const auto &at : faces[face.face].points)
+              {
+                const auto point = evaluate_face(
+                    cells, face, faces[face.face], at, static_cast<const double *>(nullptr));
+                const double                     weight = at.weight * point.reference_area;
+                const std::vector<unsigned int> &nodes  = faces[face.face].nodes;
+                measure += weight;
+                for (std::size_t n = 0; n < nodes.size(); ++n)
+                  of_node[cells.x[face.cell * cells.n_x + nodes[n]]] += weight * at.value[n];
+              }
+      }
+    else
+      {
+        const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.volume_degree());
+        const GeometryTable<dim> geometry(cells, quadrature.get_points());
+        const ShapeTable<dim>    shape(discretisation.x_shape, quadrature.get_points());
+        for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
+          for (unsigned int q = 0; q < quadrature.size(); ++q)
+            {
+              const double weight = geometry.determinant(cell, q) * quadrature.weight(q);
+              measure += weight;
+              for (unsigned int a = 0; a < cells.n_x; ++a)
+                of_node[cells.x[cell * cells.n_x + a]] += weight * shape.value(q, a);
+            }
+      }
+    measure = dealii::Utilities::MPI::sum(measure, discretisation.communicator());
+    std::vector<Weight> weights;
+    for (const auto &[node, weight] : of_node)
+      weights.emplace_back(node, weight / measure);
+    return weights;
   }
 
   template <int dim>
@@ -144,77 +193,55 @@ namespace isochor
   }
 
   template <int dim>
-  dealii::Tensor<1, dim> Probes<dim>::mean_displacement(const Probe  &probe,
-                                                        const Vector &state) const
+  dealii::Tensor<1, dim> Probes<dim>::direction(const Probe                  &probe,
+                                                const unsigned int            column,
+                                                const dealii::Tensor<1, dim> &vector) const
   {
-    const CellTables<dim> &cells = discretisation.cells;
+    const unsigned int component = probe.request.component.value_or(column);
+    if (component == dim) // the magnitude; zero has no direction
+      return vector / std::max(vector.norm(), std::numeric_limits<double>::min());
+    dealii::Tensor<1, dim> unit;
+    unit[component] = 1.;
+    return unit;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> Probes<dim>::mean(const std::vector<Weight> &weights,
+                                           const Vector              &state) const
+  {
     dealii::Tensor<1, dim> total;
-    double                 measure = 0;
-    if (probe.boundary)
-      {
-        for (const BoundaryFace &face : discretisation.boundary_faces)
-          if (face.owned && face.id == *probe.boundary)
-            for (const auto &at : faces[face.face].points)
-              {
-                const auto point = evaluate_face(cells, face, faces[face.face], at, state.begin());
-                total += at.weight * point.reference_area * point.displacement;
-                measure += at.weight * point.reference_area;
-              }
-      }
-    else
-      {
-        const auto quadrature = cell_quadrature<dim>(cells.kind, discretisation.volume_degree());
-        const GeometryTable<dim> geometry(cells, quadrature.get_points());
-        const ShapeTable<dim>    shape(discretisation.x_shape, quadrature.get_points());
-        for (std::size_t cell = 0; cell < cells.n_owned; ++cell)
-          for (unsigned int q = 0; q < quadrature.size(); ++q)
-            {
-              const double weight = geometry.determinant(cell, q) * quadrature.weight(q);
-              measure += weight;
-              for (unsigned int a = 0; a < cells.n_x; ++a)
-                for (unsigned int c = 0; c < dim; ++c)
-                  total[c] += weight * shape.value(q, a)
-                              * state.local_element(cells.x[cell * cells.n_x + a] + c);
-            }
-      }
-    const MPI_Comm communicator = discretisation.communicator();
-    return sum_over_ranks(total, communicator) / dealii::Utilities::MPI::sum(measure, communicator);
+    for (const auto &[node, weight] : weights)
+      for (unsigned int c = 0; c < dim; ++c)
+        total[c] += weight * state.local_element(node + c);
+    return sum_over_ranks(total, discretisation.communicator());
   }
 
   template <int dim>
-  dealii::Tensor<1, dim> Probes<dim>::point_displacement(const Probe  &probe,
-                                                         const Vector &state) const
+  std::pair<double, std::optional<LocalIndex>>
+  Probes<dim>::extreme(const Probe &probe, const unsigned int column, const Vector &state) const
   {
-    const CellTables<dim> &cells = discretisation.cells;
-    dealii::Tensor<1, dim> u;
-    if (probe.place)
-      for (unsigned int a = 0; a < cells.n_x; ++a)
-        for (unsigned int c = 0; c < dim; ++c)
-          u[c] += discretisation.x_shape.value(a, probe.place->second)
-                  * state.local_element(cells.x[probe.place->first * cells.n_x + a] + c);
-    return sum_over_ranks(u, discretisation.communicator());
-  }
-
-  template <int dim>
-  std::vector<double> Probes<dim>::extremes(const Probe &probe, const Vector &state) const
-  {
-    const bool   smallest = probe.request.kind == ProbeKind::min_displacement;
-    const double sign     = smallest ? -1. : 1.;
-
-    std::vector<double> best(probe.request.component ? 1 : dim,
-                             -std::numeric_limits<double>::max());
+    const double              sign = probe.request.kind == ProbeKind::min_displacement ? -1. : 1.;
+    double                    best = -std::numeric_limits<double>::max();
+    std::optional<LocalIndex> where;
     for (const LocalIndex node : probe.nodes)
       {
         dealii::Tensor<1, dim> u;
         for (unsigned int c = 0; c < dim; ++c)
           u[c] = state.local_element(node + c);
-        const auto values = components(probe, u);
-        for (std::size_t k = 0; k < best.size(); ++k)
-          best[k] = std::max(best[k], sign * values[k]);
+        if (const double value = sign * components(probe, u)[column]; value > best)
+          {
+            best  = value;
+            where = node;
+          }
       }
-    for (double &value : best)
-      value = sign * dealii::Utilities::MPI::max(value, discretisation.communicator());
-    return best;
+    // The first rank of those that have it.
+    const MPI_Comm     communicator = discretisation.communicator();
+    const double       best_of_all  = dealii::Utilities::MPI::max(best, communicator);
+    const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int first        = dealii::Utilities::MPI::min(
+        where && best == best_of_all ? rank : dealii::Utilities::MPI::n_mpi_processes(communicator),
+        communicator);
+    return {sign * best_of_all, rank == first ? where : std::nullopt};
   }
 
   template <int dim>
@@ -246,14 +273,13 @@ namespace isochor
       switch (probe.request.kind)
         {
           case ProbeKind::mean_displacement:
-            append(components(probe, mean_displacement(probe, state)));
-            break;
           case ProbeKind::point_displacement:
-            append(components(probe, point_displacement(probe, state)));
+            append(components(probe, mean(probe.weights, state)));
             break;
           case ProbeKind::min_displacement:
           case ProbeKind::max_displacement:
-            append(extremes(probe, state));
+            for (unsigned int k = 0; k < n_components(probe); ++k)
+              append({extreme(probe, k, state).first});
             break;
           case ProbeKind::volume:
             append({deformed_volume(discretisation, state)});
@@ -277,6 +303,39 @@ namespace isochor
             break;
         }
     return values;
+  }
+
+  template <int dim>
+  std::map<std::size_t, Vector> Probes<dim>::derivatives(const std::string &name,
+                                                         const Vector      &state) const
+  {
+    const auto found
+        = std::ranges::find_if(probes, [&](const Probe &p) { return p.request.name == name; });
+    if (found == probes.end())
+      return {};
+    const Probe &probe      = *found;
+    const bool   is_extreme = probe.request.kind == ProbeKind::min_displacement
+                            || probe.request.kind == ProbeKind::max_displacement;
+    if (!is_extreme && probe.request.kind != ProbeKind::mean_displacement
+        && probe.request.kind != ProbeKind::point_displacement)
+      return {};
+
+    std::map<std::size_t, Vector> by_column;
+    for (unsigned int k = 0; k < n_components(probe); ++k)
+      {
+        std::vector<Weight> weights = probe.weights;
+        if (is_extreme)
+          if (const auto node = extreme(probe, k, state).second)
+            weights.emplace_back(*node, 1.);
+        const auto along  = direction(probe, k, mean(weights, state));
+        Vector    &column = by_column[probe.first_column + k];
+        column            = discretisation.make_vector();
+        for (const auto &[node, weight] : weights)
+          for (unsigned int c = 0; c < dim; ++c)
+            column.local_element(node + c) += weight * along[c];
+        column.compress(dealii::VectorOperation::add);
+      }
+    return by_column;
   }
 
   template class Probes<2>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace isochor
 {
@@ -14,6 +15,15 @@ namespace isochor
     /// Exponent of the unknowns in the seconds of a run, between what kept factors and what multigrid
     /// take (convergence/block_preconditioner).
     constexpr double cost_exponent = 1.4;
+
+    /// Of an estimate by recovery: corners of supports, where the stress is singular, hide half of the
+    /// error from it.
+    constexpr double recovery_safety = 2.;
+
+    double length(const std::vector<double> &x)
+    {
+      return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.));
+    }
 
     /// Do the values go back where they came from? Then no order is seen in them, and a difference may be
     /// small by chance.
@@ -92,6 +102,13 @@ namespace isochor
           }
       }
     return std::max(change / (std::pow(ratio, order) - 1.), least);
+  }
+
+  std::optional<double> error_by_recovery(const std::vector<double> &errors,
+                                          const std::vector<double> &values)
+  {
+    const double error = recovery_safety * length(errors) / length(values);
+    return std::isfinite(error) ? std::optional(error) : std::nullopt;
   }
 
   double growth_of_unknowns(const Trial &coarse, const Trial &fine, const unsigned int dim)

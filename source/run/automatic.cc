@@ -90,13 +90,15 @@ namespace isochor
           }
         if (!lead || is_over)
           return {};
+        trials.estimate(*lead);
         if (lowest)
           {
             trials[*lowest].verdict = "pilot";
-            trials[*lead].estimate  = difference_by_order(*lowest, *lead);
-            if (is_enough(*lead))
-              return lead;
+            if (const auto bound = difference_by_order(*lowest, *lead))
+              trials[*lead].estimate = std::min(trials[*lead].estimate.value_or(*bound), *bound);
           }
+        if (is_enough(*lead))
+          return lead;
         trials[*lead].verdict = "pilot";
         choose_strain(*lead);
         if (const auto second = converged({trials[*lead].element, refinement, energy}))

@@ -292,6 +292,13 @@ namespace isochor
                       "interruption: steps (after each load step), never, or a number of seconds, "
                       "at least 0, that lie at least between two saves. The last two are kept; a "
                       "run that converges removes them. Example: 60");
+    prm.declare_entry(
+        "Error estimates",
+        "false",
+        dealii::Patterns::Bool(),
+        "Also estimate the discretisation error of mean, point and extreme displacements "
+        "from the run itself, by dual-weighted residuals; about a tenth of the run's "
+        "seconds. Not by the matrix-free linear solvers.");
     prm.declare_entry("Inf-sup test",
                       "false",
                       dealii::Patterns::Bool(),
@@ -314,6 +321,7 @@ namespace isochor
     options.folder              = prm.get("Folder");
     options.vtu                 = vtu_output_names.value(prm.get("VTU"), "Output/VTU");
     options.inf_sup             = prm.get_bool("Inf-sup test");
+    options.error_estimates     = prm.get_bool("Error estimates");
     options.iterations          = prm.get_bool("Iterations");
     options.checkpoint_interval = parse_checkpoint(trim(prm.get("Checkpoint")));
     prm.leave_subsection();

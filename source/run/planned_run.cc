@@ -73,6 +73,8 @@ namespace isochor
       const auto output = OutputOptions::parse(prm);
       settings.vtu      = output.vtu;
       settings.inf_sup |= output.inf_sup;
+      if (output.error_estimates)
+        settings.estimates_error_of = [](const std::string &) { return true; };
       settings.iterations          = output.iterations;
       settings.checkpoint_interval = output.checkpoint_interval;
       settings.identity            = identity_of(prm);

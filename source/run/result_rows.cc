@@ -40,6 +40,15 @@ namespace isochor
       return std::sqrt(squared);
     }
 
+    /// |J(u) - J(u_h)| / |J(u_h)| of column @p k, if it is known.
+    std::optional<double> relative_estimate(const RunResult &result, const std::size_t k)
+    {
+      if (k >= result.estimated_errors.size() || std::isnan(result.estimated_errors[k]))
+        return {};
+      const double scale = scale_of(result.probe_columns, result.probe_values, k);
+      return scale > 0 ? std::optional(std::abs(result.estimated_errors[k]) / scale) : std::nullopt;
+    }
+
     bool has_values(const RunResult *result)
     {
       return result != nullptr && result->converged();
@@ -127,6 +136,9 @@ namespace isochor
         add(probe_columns[k].name + " error", valid ? optional_number(errors.error[k]) : "");
         add(probe_columns[k].name + " reference uncertainty",
             valid ? optional_number(errors.uncertainty[k]) : "");
+        if (plan.has_error_estimates)
+          add(probe_columns[k].name + " estimated error",
+              optional_number(relative_estimate(result, k)));
       }
     const bool has_state = result.cells > 0; // a refused run has none
     add("volume ratio", has_state ? csv_number(result.volume_ratio) : "");
@@ -256,12 +268,14 @@ namespace isochor
     out << "status             " << result.status
         << (result.reason.empty() ? "" : ": " + result.reason) << '\n';
     for (std::size_t k = 0; k < result.probe_columns.size(); ++k)
-      out << result.probe_columns[k].title()
-          << std::string(result.probe_columns[k].title().size() < 18
-                             ? 19 - result.probe_columns[k].title().size()
-                             : 1,
-                         ' ')
-          << number(result.probe_values[k], "%.6g") << '\n';
+      {
+        const std::string title = result.probe_columns[k].title();
+        out << title << std::string(title.size() < 18 ? 19 - title.size() : 1, ' ')
+            << number(result.probe_values[k], "%.6g");
+        if (const auto estimate = relative_estimate(result, k))
+          out << ", estimated error " << number(100. * *estimate, "%.2g") << " %";
+        out << '\n';
+      }
     out << "volume ratio       " << number(result.volume_ratio, "%.6f") << ", min J "
         << number(result.march.size.min_jacobian) << '\n'
         << "load steps         " << result.march.load_steps << " (" << result.march.failed_steps

@@ -1,5 +1,6 @@
 #include <isochor/core/text.h>
 #include <isochor/output/vtu.h>
+#include <isochor/run/error_estimate.h>
 #include <isochor/run/interrupt.h>
 #include <isochor/run/nested.h>
 #include <isochor/run/progress.h>
@@ -263,6 +264,15 @@ namespace isochor
       result.volume_ratio = deformed_volume(discretisation, state) / mesh->quality.total_volume;
       result.oscillation  = pressure_oscillation(discretisation, state);
     }
+    if (result.converged() && settings.estimates_error_of)
+      result.estimated_errors = estimated_errors(settings.estimates_error_of,
+                                                 scene,
+                                                 probes,
+                                                 equilibrium,
+                                                 tangent_solver,
+                                                 stopwatch,
+                                                 state,
+                                                 result.march.load);
     if (settings.inf_sup)
       result.inf_sup_at_end = stability(state);
     result.status  = result.march.status_text();

@@ -169,6 +169,7 @@ namespace isochor
         dealii::ParameterHandler plain;
         declare_parameters(plain);
         read_parameter_file(plain, file, all);
+        plan.has_error_estimates |= plain.get({"Output"}, "Error estimates") == "true";
         plan.has_automatic |= plain.get({"Method"}, "Element") == automatic_element;
         for (const std::string &path : plan.keys)
           if (assignments.count(path) == 0)

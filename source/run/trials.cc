@@ -118,6 +118,9 @@ namespace isochor
     const auto coarse          = finest_below(wish.refinement, *wish.element, wish.energy);
     if (coarse)
       run_settings.least_unknowns = least_unknowns_of_finer(attempts[*coarse].trial.unknowns, dim);
+    run_settings.estimates_error_of = [this](const std::string &name) {
+      return name == probe() || (settings.estimates_error_of && settings.estimates_error_of(name));
+    };
     run_settings.checkpoint_interval.reset();
     run_settings.before_output = [&]() {
       if (!has_folder)
@@ -159,7 +162,7 @@ namespace isochor
           = dealii::Utilities::MPI::max(stopwatch.total(), settings.communicator);
     attempt.trial.seconds = attempt.result.seconds_total;
     if (attempt.converged())
-      attempt.trial.values = values_of(attempt.result);
+      attempt.trial.values = of_probe(attempt.result, attempt.result.probe_values);
     else
       attempt.verdict = attempt.result.status + ": " + attempt.result.reason;
     attempts.push_back(std::move(attempt));
@@ -195,16 +198,22 @@ namespace isochor
   template <int dim>
   void Trials<dim>::estimate(const std::size_t fine)
   {
-    const auto coarse = coarser_than(fine);
-    if (!coarse)
-      return;
-    const auto coarsest = coarser_than(*coarse);
-    // What a mesh hardly finer cannot tell is still known of the coarser one.
-    const auto from_these = error_by_refinement(coarsest ? &attempts[*coarsest].trial : nullptr,
-                                                attempts[*coarse].trial,
-                                                attempts[fine].trial,
-                                                dim);
-    attempts[fine].estimate = from_these ? from_these : attempts[*coarse].estimate;
+    Attempt &attempt = attempts[fine];
+    if (const auto coarse = coarser_than(fine))
+      {
+        const auto coarsest = coarser_than(*coarse);
+        // What a mesh hardly finer cannot tell is still known of the coarser one.
+        const auto from_these = error_by_refinement(coarsest ? &attempts[*coarsest].trial : nullptr,
+                                                    attempts[*coarse].trial,
+                                                    attempt.trial,
+                                                    dim);
+        attempt.estimate = from_these ? from_these : attempts[*coarse].estimate;
+      }
+    // Of linear elements the other one tells a tenth of the error or all of it.
+    if (attempt.element->displacement.degree > 1 && !attempt.result.estimated_errors.empty())
+      if (const auto own = error_by_recovery(
+              of_probe(attempt.result, attempt.result.estimated_errors), attempt.trial.values))
+        attempt.estimate = std::min(attempt.estimate.value_or(*own), *own);
   }
 
   template <int dim>
@@ -244,15 +253,16 @@ namespace isochor
   }
 
   template <int dim>
-  std::vector<double> Trials<dim>::values_of(const RunResult &result) const
+  std::vector<double> Trials<dim>::of_probe(const RunResult           &result,
+                                            const std::vector<double> &numbers) const
   {
     const std::string  &name = probe();
-    std::vector<double> values;
+    std::vector<double> own;
     for (std::size_t k = 0; k < result.probe_columns.size(); ++k)
       if (const std::string &column = result.probe_columns[k].name;
           column == name || column.starts_with(name + " "))
-        values.push_back(result.probe_values[k]);
-    return values;
+        own.push_back(numbers[k]);
+    return own;
   }
 
   template <int dim>

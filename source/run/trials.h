@@ -69,7 +69,8 @@ namespace isochor
     /// The finest converged run of the element and energy of run @p fine on a coarser mesh.
     std::optional<std::size_t> coarser_than(std::size_t fine) const;
 
-    /// Estimates the error of run @p fine from the coarser ones, if there are any.
+    /// Estimates the error of run @p fine from itself and from the coarser ones, as far as they tell; of
+    /// two estimates the smaller one counts.
     void estimate(std::size_t fine);
 
     /// Exponent of the unknowns in the refinement, up to run @p fine.
@@ -102,7 +103,8 @@ namespace isochor
     std::string        words(const Wish &wish) const;
     std::optional<std::size_t>
     finest_below(double refinement, const Element &element, std::optional<Energy> energy) const;
-    std::vector<double>   values_of(const RunResult &result) const;
+    /// Those of @p numbers, one per column of @p result, that belong to the probe.
+    std::vector<double> of_probe(const RunResult &result, const std::vector<double> &numbers) const;
     std::filesystem::path folder_of(std::size_t k) const;
     void                  write_table() const;
     std::string           table(std::size_t chosen) const;

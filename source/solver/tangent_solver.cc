@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace isochor
 {
@@ -298,6 +299,30 @@ namespace isochor
       return {false, complaint(outcome)};
     scaling.apply(solution);
     return {true, ""};
+  }
+
+  template <int dim>
+  NewtonProblem::Correction TangentSolver<dim>::adjoint(const Vector &state,
+                                                        const double  load,
+                                                        Vector        derivative,
+                                                        const double  tolerance,
+                                                        Vector       &adjoint)
+  {
+    if (matrix_free)
+      return {false, "there is no matrix"};
+    equilibrium.prescribed().set_zero(derivative);
+    if (linearised_at.size() > 0 && filtered_by == CurvatureFilter::none && !change_tangent)
+      if (const auto solved = solve_again(derivative, tolerance, adjoint); solved.succeeded)
+        return solved;
+    state.update_ghost_values();
+    are_kept          = false;
+    const auto change = std::exchange(change_tangent, {});
+    assemble(state, load, nullptr, CurvatureFilter::none, {});
+    change_tangent = change;
+    rotations.start(state);
+    if (const auto fresh = factor_or_use_double(state); !fresh.succeeded)
+      return {false, fresh.failure};
+    return solve_again(derivative, tolerance, adjoint);
   }
 
   template <int dim>

@@ -22,6 +22,24 @@ namespace isochor
     double von_mises = 0;
   };
 
+  /// What the residual is made of at a point.
+  template <int dim>
+  struct PointForces
+  {
+    dealii::Tensor<2, dim> stress;          ///< dpsi_d/dF; of displacement elements all of P, Pa
+    dealii::Tensor<2, dim> volume_gradient; ///< dPhi/dF; zero of displacement elements
+    double                 pressure = 0;    ///< as in PointFields
+    double                 misfit   = 0;    ///< Phi - p / kappa; zero of displacement elements
+  };
+
+  /// Gradient of a displacement field, d u_i / d X_J, and the pressure beside it.
+  template <int dim>
+  struct PointGradients
+  {
+    dealii::Tensor<2, dim> gradient;
+    double                 pressure = 0; ///< 0 without pressures as unknowns
+  };
+
   template <int dim>
   class CellFields
   {
@@ -68,7 +86,42 @@ namespace isochor
                   const double                  *values,
                   std::vector<PointFields<dim>> &fields) const;
 
+    /// The same of stress and volumetric misfit.
+    void evaluate(std::size_t                    cell,
+                  const Points                  &points,
+                  const double                  *values,
+                  std::vector<PointForces<dim>> &forces) const;
+
+    /// The same of a state's derivatives, whatever it is a state of.
+    void evaluate(std::size_t                       cell,
+                  const Points                     &points,
+                  const double                     *values,
+                  std::vector<PointGradients<dim>> &gradients) const;
+
   private:
+    /// Eight points of a cell.
+    struct Here
+    {
+      Batch displacement[dim], gradient[dim][dim], pressure;
+    };
+    Here
+    at(std::size_t cell, const Points &points, unsigned int batch_no, const double *values) const;
+
+    /// What the material makes of them.
+    struct Constitutive
+    {
+      Deformation        deformation;
+      Response           response; ///< of psi_d; of displacement elements also of the pressure
+      VolumetricResponse volumetric;
+      Batch              pressure;
+    };
+    Constitutive respond(const Here &here) const;
+
+    bool is_mixed() const
+    {
+      return discretisation.cells.n_p > 0;
+    }
+
     const Discretisation<dim>                &discretisation;
     std::unique_ptr<const DistortionalEnergy> energy;
     VolumetricStrain                          volumetric_strain;

@@ -6,6 +6,7 @@
 #include <isochor/space/face_tables.h>
 
 #include <functional>
+#include <map>
 
 namespace isochor
 {
@@ -42,25 +43,44 @@ namespace isochor
     /// Equilibrium::residual. Collective.
     std::vector<double> measure(const Vector &state, const Vector &reactions, double load) const;
 
+    /// By column of probe @p name, its derivative by the unknowns at @p state (with ghosts); of an
+    /// extreme, that of the node where it is. None for volumes, reactions, norms, unknown names.
+    /// Collective.
+    std::map<std::size_t, Vector> derivatives(const std::string &name, const Vector &state) const;
+
   private:
+    /// A displacement node and what its displacement counts for.
+    using Weight = std::pair<LocalIndex, double>;
+
     struct Probe
     {
       ProbeRequest<dim>                         request;
-      std::optional<dealii::types::boundary_id> boundary; ///< none: the whole body
-      std::vector<LocalIndex>                   nodes;    ///< owned displacement nodes it covers
-      /// Of a point: the cell if it is on this rank, and the point's place in it.
-      std::optional<std::pair<LocalIndex, dealii::Point<dim>>> place;
+      std::size_t                               first_column; ///< its own are consecutive
+      std::optional<dealii::types::boundary_id> boundary;     ///< none: the whole body
+      std::vector<LocalIndex>                   nodes; ///< owned displacement nodes it covers
+      /// Of mean and point displacements: in sums over this rank's cells, which add up over ranks.
+      std::vector<Weight> weights;
     };
 
-    void add_columns(const ProbeRequest<dim> &request);
-    void locate(Probe &probe) const;
-    void check_closed(const Probe &probe) const;
+    void                add_columns(const ProbeRequest<dim> &request);
+    std::vector<Weight> mean_weights(const Probe &probe) const;
+    std::vector<Weight> point_weights(const Probe &probe) const;
+    void                check_closed(const Probe &probe) const;
 
-    dealii::Tensor<1, dim> mean_displacement(const Probe &probe, const Vector &state) const;
-    dealii::Tensor<1, dim> point_displacement(const Probe &probe, const Vector &state) const;
-    std::vector<double>    extremes(const Probe &probe, const Vector &state) const;
-    double                 cavity_volume(const Probe &probe, const double *values) const;
+    dealii::Tensor<1, dim> mean(const std::vector<Weight> &weights, const Vector &state) const;
+    /// The extreme of column @p column among all nodes and, on the rank that owns it, its node.
+    std::pair<double, std::optional<LocalIndex>>
+    extreme(const Probe &probe, unsigned int column, const Vector &state) const;
+
+    double       cavity_volume(const Probe &probe, const double *values) const;
+    unsigned int n_components(const Probe &probe) const
+    {
+      return probe.request.component ? 1 : dim;
+    }
     std::vector<double> components(const Probe &probe, const dealii::Tensor<1, dim> &vector) const;
+    /// d(components) / d(vector)
+    dealii::Tensor<1, dim>
+    direction(const Probe &probe, unsigned int column, const dealii::Tensor<1, dim> &vector) const;
 
     const Discretisation<dim> &discretisation;
     FaceTables<dim>            faces;

@@ -49,6 +49,12 @@ namespace isochor
                                             const Trial &fine,
                                             unsigned int dim);
 
+  /// Relative error of a run whose own estimates of its errors are @p errors, times what such estimates
+  /// have been short by (convergence/error_estimates). None if one of them is not known (NaN), or all
+  /// values are zero.
+  std::optional<double> error_by_recovery(const std::vector<double> &errors,
+                                          const std::vector<double> &values);
+
   /// A run that could be made.
   struct Prediction
   {

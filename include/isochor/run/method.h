@@ -46,9 +46,10 @@ namespace isochor
   struct OutputOptions
   {
     std::string folder; ///< empty: results/<stem of the parameter file>
-    VtuOutput   vtu        = VtuOutput::every_step;
-    bool        inf_sup    = false; ///< test the pressure's stability
-    bool        iterations = false; ///< write iterations.csv
+    VtuOutput   vtu             = VtuOutput::every_step;
+    bool        inf_sup         = false; ///< test the pressure's stability
+    bool        iterations      = false; ///< write iterations.csv
+    bool        error_estimates = false; ///< estimate the errors of probes
     /// Seconds that lie at least between two saved states; none: nothing is saved.
     std::optional<double> checkpoint_interval = 0.;
 

@@ -42,11 +42,14 @@ namespace isochor
     double                                           peak_megabytes = 0; ///< largest rank
     std::vector<ProbeColumn>                         probe_columns;
     std::vector<double>                              probe_values;
-    double                                           volume_ratio = 1; ///< deformed / reference
-    std::optional<double>                            oscillation;
-    std::optional<InfSup>                            inf_sup_at_rest, inf_sup_at_end;
-    MeshQuality                                      quality;
-    std::vector<std::string>                         warnings; ///< plain words for the user
+    /// J(u) - J(u_h) of each probe column, NaN where it is not known; empty: not asked for. See
+    /// run/error_estimate.h
+    std::vector<double>            estimated_errors;
+    double                         volume_ratio = 1; ///< deformed / reference
+    std::optional<double>          oscillation;
+    std::optional<InfSup>          inf_sup_at_rest, inf_sup_at_end;
+    MeshQuality                    quality;
+    std::vector<std::string>       warnings;  ///< plain words for the user
     std::optional<AutomaticReport> automatic; ///< of Element = auto: how it was chosen
 
     bool converged() const
@@ -77,9 +80,10 @@ namespace isochor
     /// A larger problem is left out. 0: none is too large.
     GlobalIndex most_unknowns = 0;
     /// A smaller problem is left out: its mesh is hardly finer than one that has been solved on.
-    GlobalIndex least_unknowns = 0;
-    bool        restart        = false; ///< go on from the last saved state, if there is one
-    Identity    identity       = {};    ///< the parameters that a saved state depends on
+    GlobalIndex                                   least_unknowns     = 0;
+    std::function<bool(const std::string &probe)> estimates_error_of = {}; ///< empty: of none
+    bool     restart  = false; ///< go on from the last saved state, if there is one
+    Identity identity = {};    ///< the parameters that a saved state depends on
     /// Called when the input has proved good, before anything is written. Collective.
     std::function<void()> before_output = [] {};
   };

@@ -45,8 +45,9 @@ namespace isochor
     std::vector<std::size_t>      order;
     std::map<std::string, double> reference_values; ///< by probe column name
     std::string                   title;
-    bool                          has_automatic = false; ///< a run with Element = auto
-    unsigned int                  most_unknowns = 0;     ///< of a run of the grid; 0: no limit
+    bool                          has_automatic       = false; ///< a run with Element = auto
+    bool                          has_error_estimates = false; ///< a run with Error estimates
+    unsigned int                  most_unknowns       = 0; ///< of a run of the grid; 0: no limit
 
     bool is_study() const
     {
