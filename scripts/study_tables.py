@@ -17,6 +17,8 @@ folder,
   ratios                          the first probe over the truth, for each scene (see ratio_tables.py)
   automatic FOLDER                Element = auto beside the fixed methods of the scenes' baselines in
                                   FOLDER (see automatic_tables.py)
+  estimates FOLDER                errors that runs estimate of themselves over true ones; FOLDER as
+                                  before (see estimate_tables.py)
 Other blocks are left alone; rerun_study.py fills "baseline".
 """
 
@@ -28,6 +30,7 @@ from pathlib import Path
 import automatic_tables
 from compare_results import against_published
 from cost_and_accuracy import cheapest_rows, probe_with_error
+from estimate_tables import estimate_rows
 from failures import failures_rows
 from ratio_tables import ratio_rows
 from results_table import BadTable, Study, failed, groups, number, short
@@ -145,6 +148,8 @@ def table(folder, what):
     if match := re.fullmatch(r"automatic (\S+)", what):
         return markdown(automatic_tables.HEADER,
                         automatic_tables.automatic_rows(folder, folder / match[1]))
+    if match := re.fullmatch(r"estimates (\S+)", what):
+        return markdown(*estimate_rows(folder, folder / match[1]))
     return None
 
 

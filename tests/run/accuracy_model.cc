@@ -78,4 +78,9 @@ int main()
   std::cout << "growth of unknowns: " << growth_of_unknowns(now, trial(2, 3, 0.04, 2), dim) << '\n';
   std::cout << "difference of (3, 4) and (0, 0): " << relative_difference({3, 4}, {0, 0})
             << ", of (3, 4) and (3, 3.5): " << relative_difference({3, 3.5}, {3, 4}) << '\n';
+  std::cout << "own estimates (3, -4) of (100, 0), twice: " << *error_by_recovery({3, -4}, {100, 0})
+            << ", not known: "
+            << testing::yes(!error_by_recovery({3, std::nan("")}, {100, 0})
+                            && !error_by_recovery({1}, {0}))
+            << '\n';
 }

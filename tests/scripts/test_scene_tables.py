@@ -1,5 +1,5 @@
-"""scripts/automatic_tables.py and ratio_tables.py on tables made by hand: one row per scene, against
-the cheapest fixed method and against the truth."""
+"""scripts/automatic_tables.py, ratio_tables.py and estimate_tables.py on tables made by hand: one row per
+scene, against the cheapest fixed method and against the truth."""
 
 import csv
 import sys
@@ -12,6 +12,7 @@ sys.path.insert(0, str(SCRIPTS))
 sys.dont_write_bytecode = True
 
 from automatic_tables import HEADER, automatic_rows  # noqa: E402
+from estimate_tables import estimate_rows  # noqa: E402
 from ratio_tables import ratio_rows  # noqa: E402
 from results_table import BadTable  # noqa: E402
 
@@ -66,8 +67,31 @@ class SceneTables(unittest.TestCase):
         self.assertEqual(rows, [["arm", "tip", "2 m", "0.05 %", "0.100", "0.900", "failed"],
                                 ["box", "tip", "-2 m", "0.05 %", "0.500", "-", "1.000"]])
 
+    def test_estimates(self):
+        self.write(self.fixed / "baseline_arm.csv", ["Method/Element"],
+                   [["P1", *run(1, 2, 0.1, unsure=0.01)]])
+        file = self.folder / "baseline_arm.csv"
+        parameters = ["Method/Element", "Scene/Mesh size"]
+        self.write(file, parameters, [["P1", "0.1", *run(1, 2, 0.1)]])
+        with self.assertRaisesRegex(BadTable, "no column 'tip estimated error'"):
+            estimate_rows(self.folder, self.fixed)
+
+        def estimated(error, estimate):
+            row = run(1, 2, error)
+            return [*row[:7], estimate, *row[7:]]
+
+        with open(file, "w", newline="") as stream:
+            csv.writer(stream).writerows([
+                [*parameters, *COLUMNS[:7], "tip estimated error", *COLUMNS[7:]],
+                ["P1", "0.1", *estimated(0.2, 0.1)], ["P1", "0.05", *estimated(0.1, 0.09)],
+                ["P1", "0.02", *estimated(0.02, 0.1)],  # the truth is uncertain by half of that
+                ["P2", "0.1", *estimated(0.1, 0.2)], ["P2", "0.05", *estimated(0.04, "")]])
+        self.assertEqual(estimate_rows(self.folder, self.fixed),
+                         (["scene", "P1", "P2"], [["arm", "0.5 to 0.9", "2"]]))
+
     def test_no_baseline(self):
-        for table in (lambda: automatic_rows(self.folder, self.fixed), lambda: ratio_rows(self.folder)):
+        for table in (lambda: automatic_rows(self.folder, self.fixed), lambda: ratio_rows(self.folder),
+                      lambda: estimate_rows(self.folder, self.fixed)):
             with self.assertRaisesRegex(BadTable, "holds no baseline_SCENE.csv"):
                 table()
 

@@ -2,7 +2,8 @@
 
 // Element = auto: model no more than the scene needs. Cheap runs on coarse meshes show how large the
 // discretisation error of one probe is and what each element costs; the cheapest candidate that is
-// expected to meet the accuracy asked for is run, and its estimate checked.
+// expected to meet the accuracy asked for is run, and its estimate checked. An error is seen by the run
+// itself (run/error_estimate.h) and by the difference to a coarser one.
 //
 // The runs are a chain: each begins with the equilibrium of the one before, interpolated, so that
 // the load is stepped up on the coarsest mesh only.
