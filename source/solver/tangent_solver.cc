@@ -311,7 +311,9 @@ namespace isochor
     if (matrix_free)
       return {false, "there is no matrix"};
     equilibrium.prescribed().set_zero(derivative);
-    if (linearised_at.size() > 0 && filtered_by == CurvatureFilter::none && !change_tangent)
+    const bool has_factors
+        = linearised_at.size() > 0 && (are_kept || !backend->is_preconditioner());
+    if (has_factors && filtered_by == CurvatureFilter::none && !change_tangent)
       if (const auto solved = solve_again(derivative, tolerance, adjoint); solved.succeeded)
         return solved;
     state.update_ghost_values();

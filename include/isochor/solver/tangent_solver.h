@@ -106,13 +106,10 @@ namespace isochor
     /// Solve K adjoint = @p derivative, K the tangent of the equilibrium @p state or one close to it, with
     /// factors that are there or, if they do not do, new ones. @p derivative is a figure's by the
     /// unknowns; its entries at the prescribed ones, where the adjoint is zero, are not looked at. K
-    /// is taken to be symmetric, which it is not under a pressure on a boundary with an edge: the
-    /// adjoint is a weight, not a result. Refused without a matrix. Collective.
-    NewtonProblem::Correction adjoint(const Vector &state,
-                                      double        load,
-                                      Vector        derivative,
-                                      double        tolerance,
-                                      Vector       &adjoint);
+    /// is taken to be symmetric, which it is not without a potential (a pressure on a boundary with an
+    /// edge, an energy as printed): the adjoint is a weight, not a result. Refused without a matrix. Collective.
+    NewtonProblem::Correction
+    adjoint(const Vector &state, double load, Vector derivative, double tolerance, Vector &adjoint);
 
     const LinearStatistics &statistics() const
     {
