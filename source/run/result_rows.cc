@@ -214,10 +214,18 @@ namespace isochor
     for (const std::string &key : plan.keys)
       header.push_back(key.substr(key.rfind('/') + 1));
     header.push_back("unknowns");
-    std::vector<std::size_t> shown; // columns with an error somewhere get an error column
+    // Columns with an error or an estimate somewhere get a column of it.
+    std::vector<std::size_t> shown, estimated;
     for (std::size_t k = 0; k < probe_columns.size(); ++k)
       {
         header.push_back(probe_columns[k].title());
+        if (std::ranges::any_of(results, [&](const RunResult &result) {
+              return relative_estimate(result, k).has_value();
+            }))
+          {
+            estimated.push_back(k);
+            header.push_back("estimated %");
+          }
         for (const ProbeErrors &error : errors)
           if (k < error.error.size() && error.error[k])
             {
@@ -243,6 +251,11 @@ namespace isochor
           {
             const bool valid = result.converged();
             row.push_back(valid ? number(result.probe_values[k]) : "");
+            if (std::ranges::find(estimated, k) != estimated.end())
+              {
+                const auto estimate = relative_estimate(result, k);
+                row.push_back(estimate ? number(100. * *estimate, "%.2g") : "");
+              }
             for (const std::size_t s : shown)
               if (s == k)
                 row.push_back(
