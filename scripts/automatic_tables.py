@@ -2,7 +2,7 @@
 and its cost, beside the cheapest fixed method that hindsight knows (cost_and_accuracy.py)."""
 
 from cost_and_accuracy import assured_errors, cheapest, probe_with_error, uncertainty
-from results_table import BadTable, Study, failed, number
+from results_table import Study, failed, number, scene_baselines
 
 HEADER = ["scene", "wanted", "chosen", "estimated error", "true error", "seconds", "cheapest fixed",
           "its error", "its seconds", "ratio"]
@@ -30,11 +30,8 @@ def fixed_words(study, row):
 def baselines(folder, fixed_folder):
     """(scene, study, study of the fixed methods) of each baseline_SCENE.csv of FOLDER; the fixed methods
     of the scene are in the file of the same name in FIXED_FOLDER."""
-    files = sorted(folder.glob("baseline_*.csv"))
-    if not files:
-        raise BadTable(f"{folder}: holds no baseline_SCENE.csv")
-    return [(file.stem.removeprefix("baseline_"), Study(file), Study(fixed_folder / file.name))
-            for file in files]
+    return [(scene, Study(file), Study(fixed_folder / file.name))
+            for scene, file in scene_baselines(folder)]
 
 
 def best_in_hindsight(automatic, fixed):

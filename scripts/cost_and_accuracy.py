@@ -3,7 +3,8 @@
 A run's own error may be small by luck: along refined meshes an error that changes its sign is near zero
 at one of them. So a run counts with its assured error: the largest of its own and of those of the finer
 runs of the same method on the same problem, and on top of it the reference's uncertainty, within which
-the truth lies. A finer run that failed assures nothing. The finest run of a method has none behind it and is taken at its word.
+the truth lies. A finer run that failed assures nothing. The finest run of a method has none behind it and
+is taken at its word.
 """
 
 import math
@@ -41,6 +42,10 @@ def uncertainty(row, probe):
     return abs(number(row[probe.uncertainty]) or 0) if probe.uncertainty else 0.
 
 
+def largest_uncertainty(rows, probe):
+    return max((uncertainty(row, probe) for row in rows), default=0.)
+
+
 def assured_errors(study, rows, probe):
     """(row, error) of the runs ROWS of one problem that can be counted on; a run that is the
     reference itself has no error of its own and is left out, and so is one that was refused, which
@@ -73,7 +78,7 @@ def cheapest(assured, request):
 
 
 def why_none(assured, rows, probe, request):
-    known = max((uncertainty(row, probe) for row in rows), default=0.)
+    known = largest_uncertainty(rows, probe)
     if known > request:
         return f"none: the reference is uncertain by {100 * known:.2g} %"
     best = min((error for _, error in assured), default=None)

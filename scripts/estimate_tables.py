@@ -2,8 +2,8 @@
 
 import math
 
-from cost_and_accuracy import probe_with_error, uncertainty
-from results_table import BadTable, Study, failed, number
+from cost_and_accuracy import largest_uncertainty, probe_with_error
+from results_table import BadTable, Study, failed, number, scene_baselines
 
 CLEAR = 3  # a true error this many times the reference's uncertainty is one
 
@@ -22,7 +22,7 @@ def judged(file, fixed_folder):
     study, fixed = Study(file), Study(fixed_folder / file.name)
     probe = probe_with_error(study)
     fixed_probe = probe_with_error(fixed, probe.name)
-    doubt = max(uncertainty(row, fixed_probe) for row in fixed.runs + fixed.reference)
+    doubt = largest_uncertainty(fixed.runs + fixed.reference, fixed_probe)
     probes = components(study, probe)
     estimates = [f"{p.name} estimated error" for p in probes]
     if estimates[0] not in study.columns:
@@ -41,15 +41,12 @@ def judged(file, fixed_folder):
 def estimate_rows(folder, fixed_folder):
     """The header and the rows of the table: for each baseline_SCENE.csv of FOLDER one, with the range of
     estimated over true error of each element."""
-    files = sorted(folder.glob("baseline_*.csv"))
-    if not files:
-        raise BadTable(f"{folder}: holds no baseline_SCENE.csv")
     ratios = {}
-    for file in files:
+    for scene, file in scene_baselines(folder):
         study, pairs = judged(file, fixed_folder)
         for row, true, estimate in pairs:
-            scene = file.stem.removeprefix("baseline_").replace("_", " ")
-            ratios.setdefault(scene, {}).setdefault(study.method(row), []).append(estimate / true)
+            line = ratios.setdefault(scene.replace("_", " "), {})
+            line.setdefault(study.method(row), []).append(estimate / true)
     methods = sorted({method for line in ratios.values() for method in line})
 
     def cell(values):

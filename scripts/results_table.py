@@ -170,6 +170,14 @@ def groups(rows, key):
     return found
 
 
+def scene_baselines(folder):
+    """(scene, file) of each baseline_SCENE.csv of FOLDER."""
+    files = sorted(folder.glob("baseline_*.csv"))
+    if not files:
+        raise BadTable(f"{folder}: holds no baseline_SCENE.csv")
+    return [(file.stem.removeprefix("baseline_"), file) for file in files]
+
+
 def setting(row, parameter):
     name = "ν" if parameter == POISSON else short(parameter)
     return f"{name} = {row[parameter]}" + (f" {UNITS[short(parameter)]}".rstrip()

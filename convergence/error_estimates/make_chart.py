@@ -12,6 +12,7 @@ from matplotlib.ticker import FuncFormatter  # noqa: E402
 
 from chart_style import percent, plt, style  # noqa: E402
 from estimate_tables import judged  # noqa: E402
+from results_table import scene_baselines  # noqa: E402
 
 ENDS = (1e-4, 1.)
 OWN = {"Q2-P1": {"color": "#D55E00", "marker": "D"}}  # which charts of one scene tell by dashes
@@ -20,7 +21,7 @@ OWN = {"Q2-P1": {"color": "#D55E00", "marker": "D"}}  # which charts of one scen
 def main():
     figure, axes = plt.subplots(figsize=(7.5, 5.6), layout="constrained")
     handles = {}
-    for file in sorted(HERE.glob("baseline_*.csv")):
+    for _, file in scene_baselines(HERE):
         study, pairs = judged(file, HERE.parent / "work_precision")
         for row, true, estimate in pairs:
             method = study.method(row)

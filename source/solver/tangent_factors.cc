@@ -164,6 +164,19 @@ namespace isochor
   }
 
   template <int dim>
+  Factorisation TangentSolver<dim>::factor_equilibrium(const Vector &state,
+                                                       const double  load,
+                                                       const bool    is_final)
+  {
+    are_kept          = false;
+    const auto change = std::exchange(change_tangent, {});
+    assemble(state, load, nullptr, CurvatureFilter::none, {});
+    change_tangent = change;
+    rotations.start(state);
+    return factor_or_use_double(state, is_final);
+  }
+
+  template <int dim>
   bool TangentSolver<dim>::is_near_last_linearisation(const Vector &state) const
   {
     // Displacements and pressures have different units.
@@ -190,13 +203,7 @@ namespace isochor
     if (is_fresh && !change_tangent && counts.pivot_excess == 0
         && is_near_last_linearisation(state))
       return;
-    are_kept = false;
-    // The tangent of the equilibrium itself counts.
-    const auto change = std::exchange(change_tangent, {});
-    assemble(state, load, nullptr, CurvatureFilter::none, {});
-    change_tangent = change;
-    rotations.start(state);
-    are_kept = factor_or_use_double(state, true).succeeded && backend->is_preconditioner();
+    are_kept = factor_equilibrium(state, load, true).succeeded && backend->is_preconditioner();
     if (backend->solver() == LinearSolver::kept && counts.pivot_excess != 0 && !double_is_refused)
       {
         // Those in double precision take at most twice as much; where both together are too much,

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 namespace isochor
 {
@@ -317,12 +316,7 @@ namespace isochor
       if (const auto solved = solve_again(derivative, tolerance, adjoint); solved.succeeded)
         return solved;
     state.update_ghost_values();
-    are_kept          = false;
-    const auto change = std::exchange(change_tangent, {});
-    assemble(state, load, nullptr, CurvatureFilter::none, {});
-    change_tangent = change;
-    rotations.start(state);
-    if (const auto fresh = factor_or_use_double(state); !fresh.succeeded)
+    if (const auto fresh = factor_equilibrium(state, load, false); !fresh.succeeded)
       return {false, fresh.failure};
     return solve_again(derivative, tolerance, adjoint);
   }

@@ -107,7 +107,8 @@ namespace isochor
     /// factors that are there or, if they do not do, new ones. @p derivative is a figure's by the
     /// unknowns; its entries at the prescribed ones, where the adjoint is zero, are not looked at. K
     /// is taken to be symmetric, which it is not without a potential (a pressure on a boundary with an
-    /// edge, an energy as printed): the adjoint is a weight, not a result. Refused without a matrix. Collective.
+    /// edge, an energy as printed): the adjoint is a weight, not a result. Refused without a matrix.
+    /// Collective.
     NewtonProblem::Correction
     adjoint(const Vector &state, double load, Vector derivative, double tolerance, Vector &adjoint);
 
@@ -142,6 +143,8 @@ namespace isochor
     /// In double precision, for good, if single precision fails or, where that matters (always if @p
     /// is_final), its pivots are in doubt.
     Factorisation factor_or_use_double(const Vector &state, bool is_final = false);
+    /// The tangent at @p state, with ghosts, itself: whatever change_tangents() has asked for.
+    Factorisation factor_equilibrium(const Vector &state, double load, bool is_final);
     /// The factors tell the signs of the matrix' pivots from rounding. Collective.
     bool                      pivots_are_sure() const;
     NewtonProblem::Correction matrix_free_correction(const Vector &state,
